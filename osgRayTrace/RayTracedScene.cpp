@@ -94,6 +94,8 @@ void RayTracedScene::setHint(osg::Node* node, Hint hint)
         return engine::setOwnHint(*node, engine::DrawHint::Trace);
     case RASTERIZE:
         return engine::setOwnHint(*node, engine::DrawHint::Rasterize);
+    case RASTERIZE_ONLY:
+        return engine::setOwnHint(*node, engine::DrawHint::RasterizeOnly);
     }
 }
 
@@ -106,6 +108,8 @@ RayTracedScene::Hint RayTracedScene::getHint(const osg::Node* node)
         return TRACE;
     case engine::DrawHint::Rasterize:
         return RASTERIZE;
+    case engine::DrawHint::RasterizeOnly:
+        return RASTERIZE_ONLY;
     case engine::DrawHint::None:
     case engine::DrawHint::Automatic:
         break;

@@ -23,7 +23,9 @@ void addMaterial(const Material& material, SceneTraits& traits)
         return;
     }
     const bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
-    traits.physical |= reflects || material.transmission > 0.0f || material.baseColor != Vec3(0.0f);
+    const bool isSeen = material.culling != FaceCulling::FrontAndBack; // by camera rays
+    traits.physical |=
+        isSeen && (reflects || material.transmission > 0.0f || material.baseColor != Vec3(0.0f));
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
     traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
 }

@@ -280,7 +280,8 @@ TEST_CASE("nodes: of other kits are traced, or left to OSG and counted", "[bridg
     ConversionInput input = inputFor(root);
     input.rasterizesRest = true;
     const ConversionResult viewed = convertFrom(input);
-    CHECK(viewed.scene->instances.size() == 3);
+    CHECK(viewed.scene->instances.size() == 3 + 1); // with the effect's child as a proxy
+    CHECK(countOf(viewed, "converted.geometry") == 3);
     CHECK(countOf(viewed, "rasterized.effect") == 1);
     CHECK(countOf(viewed, "rasterized.volume") == 1);
     REQUIRE(viewed.rasterized);
@@ -308,7 +309,8 @@ TEST_CASE("nodes: a billboard is left to OSG as a whole if anything in it is", "
     {
         const ConversionResult result = convertFrom(input);
         const bool whole = countOf(result, "rasterized.billboard") == 1;
-        CHECK(result.scene->instances.size() == (whole ? 0 : 2));
+        CHECK(countOf(result, "converted.geometry") == (whole ? 0 : 2));
+        CHECK(countOf(result, "traced.proxy") == (whole ? 2 : 0));
         return whole ? result.rasterized->size() : 0;
     };
     CHECK(partsLeft() == 0);

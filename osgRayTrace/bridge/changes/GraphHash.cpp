@@ -8,6 +8,7 @@
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -110,6 +111,9 @@ public:
     void apply(osg::Drawable& drawable) override
     {
         addDrawable(drawable);
+        // The bound of other drawables has to do as the sign of a change.
+        if (drawable.getDataVariance() == osg::Object::DYNAMIC && untracedDrawable(drawable))
+            _hasher.add(DrawableTriangles::hashOf(drawable));
         traverse(drawable);
     }
 

@@ -12,6 +12,7 @@
 #include <osg/ClipPlane>
 #include <osg/ColorMask>
 #include <osg/CullFace>
+#include <osg/Depth>
 #include <osg/FrontFace>
 #include <osg/LightModel>
 #include <osg/Material>
@@ -103,6 +104,9 @@ void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute)
         hasher.add(front->getMode());
     else if (const auto* mask = dynamic_cast<const osg::ColorMask*>(&attribute))
         hasher.add(mask->getRedMask(), mask->getGreenMask(), mask->getBlueMask());
+    else if (const auto* depth = dynamic_cast<const osg::Depth*>(&attribute))
+        hasher.add(depth->getFunction(), depth->getZNear(), depth->getZFar(),
+                   depth->getWriteMask());
 }
 
 void addAttributes(Hasher& hasher, const osg::StateSet::AttributeList& attributes, bool ofNode)
@@ -191,6 +195,7 @@ void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderRead
 {
     if (reads) addRead(hasher, stateSet, *reads);
     const bool ofNode = stateSet.getNumParents() > 0;
+    if (stateSet.useRenderBinDetails()) hasher.add(stateSet.getBinNumber());
     addModes(hasher, stateSet.getModeList());
     addAttributes(hasher, stateSet.getAttributeList(), ofNode);
     for (const auto& modes : stateSet.getTextureModeList())

@@ -30,6 +30,7 @@ namespace osgRayTrace::engine
 /// - not-traced: things that have no triangles, or that do not belong to the scene as a ray sees
 ///   it; OSG draws them if there is a viewer
 /// - rasterized: things that have triangles but that OSG draws nevertheless, in a viewer
+/// - traced: uses of what OSG draws, traced for all rays but the camera's
 /// - missing: files that could not be read, by their purpose; paths are "FILE" or "FILE, for NODE
 ///   PATH"
 using ConversionCounts = std::map<std::string, uint64_t>;

@@ -17,6 +17,7 @@ constexpr ReportClass kReportClasses[] = {
     {"converted.", "Ray traced"},
     {"traced.", "Ray traced with materials of rules, in the place of programs and textures"},
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
+    {"traced.", "Drawn by OSG, but met by shadows, mirrors and light"},
     {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
     {"approximated.", "Ray traced, but not with all that OpenGL does"},
     {"unused.", "Does nothing, as in OpenGL"},
@@ -71,6 +72,8 @@ constexpr ReportReason kReportReasons[] = {
     {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
     {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
     {"rasterized.volume", "osgVolume's volumes"},
+
+    {"traced.proxy", "uses of surfaces that OSG draws, traced for all rays but the camera's"},
 
     {"not-traced.adjacency", "primitive sets with adjacency"},
     {"not-traced.billboard-child",

@@ -25,6 +25,7 @@ struct ConversionCaches
 {
     SoftwareVertices vertices;
     RuleCaches rules;
+    DrawableTriangles triangles;
     GeometryCache geometries;
     TextureConverter textures;
     EnvironmentConverter environment;

@@ -83,8 +83,7 @@ bool CullWatch::isSame(const Watched& before, const CullOutcome& now, double eye
     return true;
 }
 
-bool CullWatch::holds(const ConversionInput& input, SoftwareVertices& vertices,
-                      const TextureConverter& textures)
+bool CullWatch::holds(const ConversionInput& input, const Caches& caches)
 {
     if (!input.pass || !input.view) return true;
     if (_unknown) return false;
@@ -94,7 +93,7 @@ bool CullWatch::holds(const ConversionInput& input, SoftwareVertices& vertices,
         Watched& watched = _watched[_next];
         const std::size_t cost = kDrawablesASubtree + watched.outcome.captured;
         if (cost > _credit) return true;
-        if (!holds(watched, input, vertices, textures)) return false;
+        if (!holds(watched, input, caches)) return false;
         _credit -= cost;
         _next = (_next + 1) % _watched.size();
         if (_next > 0) continue;
@@ -105,15 +104,15 @@ bool CullWatch::holds(const ConversionInput& input, SoftwareVertices& vertices,
     return true;
 }
 
-bool CullWatch::holds(Watched& watched, const ConversionInput& input, SoftwareVertices& vertices,
-                      const TextureConverter& textures)
+bool CullWatch::holds(Watched& watched, const ConversionInput& input, const Caches& caches)
 {
     const CullOutcome& then = watched.outcome;
     if (then.kind == CullOutcome::Left || isInPlain(then)) return true;
     ConversionReport unused;
     if (then.kind == CullOutcome::Plain && _rounds % kRoundsByDrawables != 0)
     {
-        GraphCollector collector(input, vertices, textures, unused);
+        GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
+                                 caches.rules, unused);
         const std::optional<uint64_t> signature = collector.cullSignatureAt(then.path);
         unused.setPlace({});
         if (signature == then.signature)
@@ -122,7 +121,8 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input, SoftwareVe
             return true;
         }
     }
-    GraphCollector collector(input, vertices, textures, unused);
+    GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
+                             caches.rules, unused);
     const std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path);
     unused.setPlace({});
     if (!now || !isSame(watched, *now, input.eye.length())) return false;

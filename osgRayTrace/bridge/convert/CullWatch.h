@@ -5,6 +5,8 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/CullOutcome.h"
+#include "osgRayTrace/bridge/graph/DrawableTriangles.h"
+#include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include <cstdint>
@@ -18,6 +20,15 @@ namespace osgRayTrace::engine
 class CullWatch
 {
 public:
+    /// Names what a GraphCollector looks up in its conversion's caches.
+    struct Caches
+    {
+        SoftwareVertices& vertices;
+        DrawableTriangles& triangles;
+        const TextureConverter& textures;
+        RuleCaches& rules;
+    };
+
     /// unknown: there was such a subtree, but no view.
     void record(std::vector<CullOutcome> outcomes, bool unknown);
 
@@ -26,8 +37,7 @@ public:
     /// Decides again, under the present conditions of the input. Returns whether the outcomes are
     /// the same. A call looks at about 1000 drawables, the next one at those that follow. Nodes and
     /// callbacks of the application's run.
-    bool holds(const ConversionInput& input, SoftwareVertices& vertices,
-               const TextureConverter& textures);
+    bool holds(const ConversionInput& input, const Caches& caches);
 
     /// Returns whether a path leads through a node whose cull traversal stands for what is below.
     bool covers(const osg::NodePath& path) const;
@@ -46,8 +56,7 @@ private:
         std::vector<LeafValues> values; ///< of the outcome's traced leaves
     };
 
-    bool holds(Watched& watched, const ConversionInput& input, SoftwareVertices& vertices,
-               const TextureConverter& textures);
+    bool holds(Watched& watched, const ConversionInput& input, const Caches& caches);
     bool isInPlain(const CullOutcome& outcome) const;
     static LeafValues valuesOf(const CapturedLeaf& leaf);
     static bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance);

@@ -34,7 +34,8 @@ bool isPlaceBound(const Material& material)
 /// the sides.
 bool dependsOnWinding(const Material& material)
 {
-    return material.culling != FaceCulling::None || material.twoSidedLighting;
+    return material.culling == FaceCulling::Back || material.culling == FaceCulling::Front ||
+           material.twoSidedLighting;
 }
 
 /// Returns whether a geometry has neither lines nor points: OpenGL then draws nothing of the

@@ -21,8 +21,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// These ambient lights hold above the scene: the first is that of osgUtil::SceneView's light
-/// model, the second OpenGL's, which holds if osgViewer sets no light model.
+/// Ambient lights above the scene: that of osgUtil::SceneView's light model, and OpenGL's, which
+/// holds if osgViewer sets none.
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
@@ -196,7 +196,7 @@ Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryU
     const bool bounded = positions && geometry.bounds->count == positions->getNumElements();
     const Clipping clipping =
         bounded ? clippingOf(*geometry.bounds, use.engineFromLocal, planes) : Clipping::Partly;
-    if (clipping == Clipping::Wholly) _report.count("not-traced.clipped-away");
+    if (clipping == Clipping::Wholly) reportOf(geometry).count("not-traced.clipped-away");
     if (clipping == Clipping::Partly) request.clipPlanes = std::move(planes);
     return clipping;
 }
@@ -226,14 +226,9 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
         else
             addBaked(geometry, use,
                      _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request,
-                                             geometry.path, _report));
+                                             geometry.path, reportOf(geometry)));
     }
     traced.plain = _report.remarks() == remarks;
-}
-
-void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
-{
-    recordUse(geometry, {kInvalid, effects(use.state, ConversionCounts())});
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -244,7 +239,7 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
         addNothing(geometry, use);
         return;
     }
-    _report.count("converted.geometry");
+    reportOf(geometry).count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
     addInstance(geometry, use, instance);
@@ -255,8 +250,9 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
     const MeshFrame frame = meshFrame(*geometry.bounds);
     MeshRequest request = requestFor(geometry, frame.meshFromLocal);
     request.copies = _caches.geometries.mobility(*geometry.geometry) == Mobility::Deforming;
+    ConversionReport& report = reportOf(geometry);
     const auto mesh =
-        _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, _report);
+        _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request, geometry.path, report);
     if (!mesh)
     {
         for (const GeometryUse& use : geometry.uses)
@@ -283,12 +279,12 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
                 false; // the shared mesh does not hold this use
             addBaked(
                 geometry, use,
-                _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, _report));
+                _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, report));
             continue;
         }
         if (meshIndex == kInvalid)
         {
-            _report.count("converted.geometry");
+            report.count("converted.geometry");
             meshIndex = addMesh(mesh);
         }
         instance.mesh = meshIndex;
@@ -332,6 +328,7 @@ void SceneBuilder::recordUse(const CollectedGeometry& geometry, const TracedUse&
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                     Instance instance)
 {
+    if (use.proxy) return newProxy(geometry, use, instance);
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
     instance.material = _convertedGraph.materials.add(

@@ -57,6 +57,9 @@ private:
     void addInstance(const CollectedGeometry& geometry, const GeometryUse& use, Instance instance);
     TracedUse newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                           Instance instance);
+    TracedUse newProxy(const CollectedGeometry& geometry, const GeometryUse& use,
+                       Instance instance);
+    ConversionReport& reportOf(const CollectedGeometry& geometry);
     void recordUse(const CollectedGeometry& geometry, const TracedUse& use);
     void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addNothing(const CollectedGeometry& geometry, const GeometryUse& use);
@@ -74,6 +77,7 @@ private:
     ConvertedGraph& _convertedGraph;
     Scene& _scene;
     ConversionReport& _report;
+    ConversionReport _proxyReport; ///< what is left out of proxies, which nobody reads
     ConversionReport _materialReport;
     MaterialConverter _materials;
     std::vector<std::optional<StateEffects>> _effects; ///< effects by state

@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
@@ -33,7 +34,8 @@ bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
     if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
     for (const CollectedGeometry& geometry : graph.geometries)
         for (const GeometryUse& use : geometry.uses)
-            if (graph.states[use.state].attributes[kPhysicalMaterialSlot]) return true;
+            if (!use.proxy && graph.states[use.state].attributes[kPhysicalMaterialSlot])
+                return true;
     return false;
 }
 
@@ -41,12 +43,12 @@ bool setsColor(const CollectedGraph& graph)
 {
     for (const CollectedGeometry& geometry : graph.geometries)
         for (const GeometryUse& use : geometry.uses)
-            if (setsCurrentColor(graph.states[use.state])) return true;
+            if (!use.proxy && setsCurrentColor(graph.states[use.state])) return true;
     return false;
 }
 
-/// Adds geometry that OpenGL draws. Its place is that of its path, so it may move without a
-/// conversion.
+/// Adds geometry that OpenGL draws and that has no proxy. Its place is that of its path, so it may
+/// move without a conversion.
 void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more,
                  SceneIndex& index)
 {
@@ -101,6 +103,7 @@ void SceneConverter::releaseGraph()
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
     state.caches.rules = RuleCaches();
+    state.caches.triangles = DrawableTriangles();
     state.lastResult = ConversionResult();
     state.input = ConversionInput();
     state.ordinary = false; // prevents patches
@@ -122,7 +125,8 @@ bool SceneConverter::holdsInCull(const ViewingConditions& conditions)
     input.view = conditions.view;
     input.pass = conditions.pass;
     input.inheritedState = conditions.inheritedState;
-    return watch.holds(input, state.caches.vertices, state.caches.textures);
+    ConversionCaches& caches = state.caches;
+    return watch.holds(input, {caches.vertices, caches.triangles, caches.textures, caches.rules});
 }
 
 uint64_t SceneConverter::convertedMeshes() const
@@ -141,9 +145,10 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
     ConversionReport report;
     state.caches.vertices.begin();
+    state.caches.triangles.begin();
     state.caches.rules.begin();
-    GraphCollector collector(input, state.caches.vertices, state.caches.textures,
-                             state.caches.rules, report);
+    GraphCollector collector(input, state.caches.vertices, state.caches.triangles,
+                             state.caches.textures, state.caches.rules, report);
     if (input.root) input.root->accept(collector);
     CollectedGraph graph = collector.take();
 
@@ -151,6 +156,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     rules.setsColor = state.convertedGraph.setsColor = setsColor(graph);
     state.caches.geometries.begin(rules.now);
     setBounds(graph, state.caches.geometries);
+    if (graph.hasProxies) dropEnclosures(graph, input);
     const LengthCounts lengths = lengthsOf(graph);
     rules.unit = lengths.unit();
     applyUnit(rules.unit, graph);
@@ -179,6 +185,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
     state.caches.vertices.end();
     state.caches.rules.end();
+    state.caches.triangles.end();
 
     result.scene = state.last;
     result.paged = graph.paged;

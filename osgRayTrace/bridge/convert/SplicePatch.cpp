@@ -112,7 +112,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
     if (_convertedGraph.cullWatch.covers(splice.added))
         return refuse(ConversionCause::CullTraversal, splice.added);
     ConversionReport report;
-    GraphCollector collector(_input, _caches.vertices, _caches.textures, _caches.rules, report);
+    GraphCollector collector(_input, _caches.vertices, _caches.triangles, _caches.textures,
+                             _caches.rules, report);
     if (!collector.collectAt(fromRoot(splice.added)))
         return refuse(ConversionCause::BadTransform, splice.added);
     CollectedGraph graph = collector.take();

@@ -211,9 +211,9 @@ void GraphCollector::walkBelow(osg::Node& node)
 /// own cull traversal has told what it shows.
 bool GraphCollector::collectsInCull(osg::Node& node)
 {
-    if (_lightsOnly || _isLeft || &node == _input.root) return false;
+    if (_lightsOnly || _isLeft || _leftToOsg > 0 || &node == _input.root) return false;
     if (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
-        hintOf(getNodePath()) == DrawHint::Rasterize && isHintedAlike(node))
+        leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node))
     {
         rasterize();
         _isLeft = true;

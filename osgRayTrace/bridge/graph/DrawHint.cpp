@@ -24,7 +24,8 @@ struct HintWord
 
 constexpr HintWord kWords[] = {{"automatic", DrawHint::Automatic},
                                {"trace", DrawHint::Trace},
-                               {"rasterize", DrawHint::Rasterize}};
+                               {"rasterize", DrawHint::Rasterize},
+                               {"rasterize-only", DrawHint::RasterizeOnly}};
 
 bool isHint(const std::string& description)
 {
@@ -44,7 +45,7 @@ DrawHint ownHint(const osg::Node& node)
             if (description.compare(kPrefix.size(), std::string::npos, known.word) == 0)
                 return known.hint;
         warnOnce("node '" + node.getName() + "': description '" + description +
-                 "' is no hint: the hints are trace, rasterize and automatic");
+                 "' is no hint: the hints are trace, rasterize, rasterize-only and automatic");
     }
     return DrawHint::None;
 }

@@ -8,14 +8,22 @@ namespace osgRayTrace::engine
 {
 
 /// Names the hints. A hint is kept in a node's descriptions, which OSG copies and saves with the
-/// node: "osgRayTrace:trace", "osgRayTrace:rasterize", "osgRayTrace:automatic".
+/// node: "osgRayTrace:trace", "osgRayTrace:rasterize", "osgRayTrace:rasterize-only",
+/// "osgRayTrace:automatic".
 enum class DrawHint
 {
     None,      ///< hint of the node above
     Automatic, ///< chosen by the kind of node
     Trace,
-    Rasterize
+    Rasterize,
+    RasterizeOnly ///< as Rasterize, without a proxy: see Proxies.h
 };
+
+/// Returns whether OSG draws what has the hint.
+inline bool leavesToOsg(DrawHint hint)
+{
+    return hint == DrawHint::Rasterize || hint == DrawHint::RasterizeOnly;
+}
 
 /// Returns the hint that the node itself carries. An unknown word is reported once and counts as
 /// None.

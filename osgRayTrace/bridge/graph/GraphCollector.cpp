@@ -36,11 +36,12 @@ constexpr double kSmallestVolume = 1e-12;
 } // namespace
 
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                               const TextureConverter& textures, RuleCaches& rules,
-                               ConversionReport& report)
+                               DrawableTriangles& triangles, const TextureConverter& textures,
+                               RuleCaches& rules, ConversionReport& report)
     : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
       _input(input),
       _vertices(vertices),
+      _triangles(triangles),
       _textures(textures),
       _report(report),
       _worldFromLocal(1),
@@ -189,13 +190,12 @@ void GraphCollector::apply(osg::Billboard& node)
 {
     if (_lightsOnly) return;
     const bool pushed = pushState(node);
-    if (_input.rasterizesRest && leavesDrawable(node))
+    const bool leaves = _leftToOsg > 0 || (_input.rasterizesRest && leavesDrawable(node));
+    if (leaves && _leftToOsg == 0)
     {
         _report.count("rasterized.billboard");
         warnIfForced("a billboard with text, lines or the like");
         rasterize();
-        if (pushed) _states.pop();
-        return;
     }
     if (node.getMode() == osg::Billboard::POINT_ROT_EYE && !_input.view)
         _report.count("approximated.billboard"); // it is upright in the world, not in the view
@@ -206,12 +206,13 @@ void GraphCollector::apply(osg::Billboard& node)
     // Since OSG 3.6 any child can be added, and a child that is no drawable has no position.
     const std::size_t positions = node.getPositionList().size();
     ++_untracked;
+    _leftToOsg += leaves;
     for (unsigned int i = 0; i < node.getNumDrawables(); ++i)
     {
         const osg::ref_ptr<osg::Drawable> drawable = node.getDrawable(i);
         if (!drawable || i >= positions)
         {
-            _report.count("not-traced.billboard-child");
+            if (!leaves) _report.count("not-traced.billboard-child");
             continue;
         }
         osg::Matrixd viewFromDrawable = viewFromLocal;
@@ -220,17 +221,9 @@ void GraphCollector::apply(osg::Billboard& node)
         drawable->accept(*this);
         _worldFromLocal.pop_back();
     }
+    _leftToOsg -= leaves;
     --_untracked;
     if (pushed) _states.pop();
-}
-
-void GraphCollector::apply(osg::Drawable& drawable)
-{
-    const char* reason = _lightsOnly ? nullptr : untracedDrawable(drawable);
-    if (!reason) return;
-    _report.count(reason);
-    warnIfForced(drawable.className());
-    rasterize();
 }
 
 void GraphCollector::apply(osg::Geometry& geometry)
@@ -239,22 +232,32 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
     const AssignedState assigned = assignedState(geometry);
-    if (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)) return;
+    if (_leftToOsg > 0 || (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)))
+        return collectProxy(geometry, posed);
     if (assigned.by) _report.countFor("traced.by-rule", "'" + *assigned.by + "'");
-    if (!_input.rasterizesRest && hintOf(getNodePath()) == DrawHint::Rasterize)
+    if (!_input.rasterizesRest && leavesToOsg(hintOf(getNodePath())))
         _report.count("approximated.rasterize-hint"); // there is no rasterizer
     if (!isPosed && SoftwareVertices::isPosedByProgram(geometry))
         _report.count("approximated.hardware-pose"); // it is traced as it was bound
     if (geometry.getDrawCallback()) _report.count("approximated.draw-callback");
     const osg::Geometry& read =
         assigned.by ? _rules.layouts.laidOut(posed, assigned.attributes, assigned.unit) : posed;
-    const PrimitiveRestart restart = restartOf(_states.states()[assigned.state]);
+    collectUse(read, assigned.state, false);
+}
+
+/// Adds a use of a geometry at the present place. A proxy has no path to pick: OSG's part has it.
+void GraphCollector::collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy)
+{
+    const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
-        _indexOf.try_emplace({&read, restart.key()}, _graph.geometries.size());
-    if (isNew) _graph.geometries.push_back({&read, path(), {}, restart, pointRadiusOf(geometry)});
+        _indexOf.try_emplace({&geometry, restart.key()}, _graph.geometries.size());
+    if (isNew)
+        _graph.geometries.push_back({&geometry, path(), {}, restart, pointRadiusOf(geometry)});
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
-    collected.uses.push_back({engineFromLocal(), assigned.state, pickPath()});
+    collected.uses.push_back(
+        {engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy});
+    _graph.hasProxies |= proxy;
 }
 
 osg::Vec3 GraphCollector::getEyePoint() const

@@ -10,6 +10,7 @@
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/CullOutcome.h"
+#include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 #include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
@@ -24,6 +25,7 @@
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,6 +47,7 @@ struct GeometryUse
     osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
     uint32_t state = 0;              ///< index into CollectedGraph::states
     uint32_t path = NodeTree::kNone; ///< index into CollectedGraph::paths; kNone: no picks
+    bool proxy = false;              ///< OSG draws the use, and camera rays pass it: see Proxies.h
 };
 
 struct CollectedGeometry
@@ -56,6 +59,13 @@ struct CollectedGeometry
     float pointRadius = 0.0f; ///< radius of its points and lines; 0: they are left to OSG
     bool watched = true;      ///< no path is below a node that GraphWatch does not look into
     const VertexBounds* bounds = nullptr; ///< bounds that SceneConverter sets
+
+    /// Returns whether OSG draws all uses: what is left out of a proxy is not missing in a picture.
+    bool isProxy() const
+    {
+        return std::all_of(uses.begin(), uses.end(),
+                           [](const GeometryUse& use) { return use.proxy; });
+    }
 };
 
 struct CollectedLight
@@ -102,6 +112,7 @@ struct CollectedGraph
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
+    bool hasProxies = false;               ///< some use is a proxy
     RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
     NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
     std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
@@ -118,7 +129,8 @@ class GraphCollector : public osg::NodeVisitor
 public:
     /// textures holds the images that were converted before, rules what rules have derived.
     GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
-                   const TextureConverter& textures, RuleCaches& rules, ConversionReport& report);
+                   DrawableTriangles& triangles, const TextureConverter& textures,
+                   RuleCaches& rules, ConversionReport& report);
 
     /// Visits the last node of a path from the root, in the place and the state that the node has
     /// there. The other nodes of the path are of the plain classes that GraphWatch knows. Returns
@@ -192,6 +204,8 @@ private:
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     float pointRadiusOf(const osg::Geometry& geometry);
+    void collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy);
+    void collectProxy(osg::Drawable& drawable, const osg::Geometry& triangles);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
@@ -200,6 +214,7 @@ private:
 
     const ConversionInput& _input;
     SoftwareVertices& _vertices;
+    DrawableTriangles& _triangles;
     const TextureConverter& _textures;
     ConversionReport& _report;
     std::vector<osg::Matrixd> _worldFromLocal; // stack of transforms, never empty
@@ -208,6 +223,7 @@ private:
     PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
     int _untracked = 0;       // number of enclosing nodes that GraphWatch does not look into
+    int _leftToOsg = 0;       // number of enclosing nodes that OSG draws with all below them
     bool _isLeft = false;     // OSG draws an enclosing group as a whole
     bool _lightsOnly = false; // leaves of a cull traversal stand for the drawables
     bool _isCaptured = false; // such a leaf is visited, on a path that is not its own

@@ -29,8 +29,9 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 }
 
 /// Returns whether the group is of a kit that draws its children in a way of its own, by a cull
-/// traversal only. OSG draws such a group if there is OpenGL. The children of an effect stand for
-/// it without OpenGL, or if the effect is hinted to be traced; a volume is then left out.
+/// traversal only. OSG draws such a group if there is OpenGL, and proxies of an effect's children
+/// are traced. Without OpenGL the children stand for the effect, as they do if the effect is hinted
+/// to be traced; a volume is then left out.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
@@ -38,10 +39,13 @@ bool GraphCollector::leavesGroup(osg::Node& node)
     if (_lightsOnly) return true;
     if (volume) warnIfForced("a volume");
     const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
-    if (_input.rasterizesRest && !traces)
+    if (_leftToOsg > 0 || (_input.rasterizesRest && !traces))
     {
-        _report.count(effect ? "rasterized.effect" : "rasterized.volume");
+        if (_leftToOsg == 0) _report.count(effect ? "rasterized.effect" : "rasterized.volume");
         rasterize();
+        ++_leftToOsg;
+        if (effect) traverseGroup(*node.asGroup());
+        --_leftToOsg;
         return true;
     }
     _report.count(effect ? "approximated.effect" : "not-traced.volume");
@@ -61,10 +65,10 @@ void GraphCollector::traverseGroup(osg::Group& group)
     if (pushed) _states.pop();
 }
 
-/// Leaves the node that is visited to OSG.
+/// Leaves the node that is visited to OSG, unless OSG draws a node above it with all below.
 void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
 {
-    if (!_input.rasterizesRest) return;
+    if (!_input.rasterizesRest || _leftToOsg > 0) return;
     if (_isLeft && kind == RasterizedPart::Draw)
     {
         if (const osg::Geometry* geometry = getNodePath().back()->asGeometry())
@@ -97,7 +101,7 @@ const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool
         isPosed && stateSet ? stateSet->getAttribute(osg::StateAttribute::PROGRAM) : nullptr;
     const char* reason = rasterizedState(_states.states()[state], _textures, poses);
     const DrawHint hint = hintOf(getNodePath());
-    if (hint == DrawHint::Rasterize) return "rasterized.hint";
+    if (leavesToOsg(hint)) return "rasterized.hint";
     return hint == DrawHint::Trace ? nullptr : reason;
 }
 

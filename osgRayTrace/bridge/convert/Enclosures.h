@@ -1,0 +1,15 @@
+// Enclosures.h - leaves out proxies of skies, which would keep the light off. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Drops each proxy that encloses all the rest of the graph and cuts the rest off from a light
+/// outside, as the dome of a sky does. The bounds of the geometries must be set, and the unit not
+/// yet applied.
+void dropEnclosures(CollectedGraph& graph, const ConversionInput& input);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,36 @@
+// ProxyInstances.cpp - adds uses of geometries that OSG draws, or that nobody sees. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
+#include "osgRayTrace/bridge/graph/Proxies.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Records a use of which nothing is traced.
+void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
+{
+    recordUse(geometry, {kInvalid, use.proxy ? kInvalid : effects(use.state, ConversionCounts())});
+}
+
+/// Makes the instance of a proxy. The state of a proxy changes nothing of what camera rays see,
+/// such as the ambient light, and its omissions are not counted: OSG draws with all of the state.
+TracedUse SceneBuilder::newProxy(const CollectedGeometry& geometry, const GeometryUse& use,
+                                 Instance instance)
+{
+    Material material =
+        _materials.material(proxyState(_graph.states[use.state]), surfaceInputs(*geometry.geometry),
+                            {use.engineFromLocal, &_graph.texGens});
+    hideFromCamera(material);
+    instance.material = _convertedGraph.materials.add(material);
+    instance.changed = _rules.now;
+    _report.count("traced.proxy");
+    return {appendInstance(instance), kInvalid};
+}
+
+/// Returns where the omissions of a geometry are counted: nowhere if OSG draws all of its uses.
+ConversionReport& SceneBuilder::reportOf(const CollectedGeometry& geometry)
+{
+    return geometry.isProxy() ? _proxyReport : _report;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,45 @@
+// DrawableTriangles.h - the triangles of drawables that are no osg::Geometry. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Drawable>
+#include <osg/Geometry>
+
+#include <cstdint>
+#include <map>
+
+namespace osgRayTrace::engine
+{
+
+/// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor. Each conversion
+/// asks the drawables again; a geometry stays the same object with the same arrays while its
+/// triangles do.
+class DrawableTriangles
+{
+public:
+    void begin() { ++_round; }
+
+    /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
+    const osg::Geometry* of(const osg::Drawable& drawable);
+
+    /// Forgets the drawables that were not asked for.
+    void end();
+
+    /// Returns a hash of the triangles, for drawables that change without a sign; 0: the drawable
+    /// tells none.
+    static uint64_t hashOf(const osg::Drawable& drawable);
+
+private:
+    struct Copy
+    {
+        osg::ref_ptr<const osg::Drawable> drawable; ///< keeps the address unique
+        osg::ref_ptr<osg::Geometry> triangles;      ///< null: there are none
+        uint64_t hash = 0;
+        unsigned int used = 0;
+    };
+
+    std::map<const osg::Drawable*, Copy> _copies;
+    unsigned int _round = 0;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,69 @@
+// LiveProxiesTest.cpp - proxies of what OSG draws follow the edits of a scene. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/bridge/LiveGraph.h"
+
+#include <osgRayTrace/RayTracedScene>
+
+#include <osg/Depth>
+#include <osg/Program>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+const char* const kProxy = "traced.proxy";
+
+void addProgram(osg::Node& node)
+{
+    const osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() {}"));
+    node.getOrCreateStateSet()->setAttributeAndModes(program);
+}
+
+} // namespace
+
+TEST_CASE("proxies: follow edits of a live scene", "[bridge]")
+{
+    LiveGraph graph;
+    addProgram(*graph.objects[2]);
+    LiveView view(graph.root);
+    const auto proxies = [&] { return view.statistics().conversion.at(kProxy); };
+    REQUIRE(proxies() == 1);
+    const uint64_t before = view.statistics().conversions;
+
+    graph.objects[2]->setMatrix(osg::Matrixd::translate(0.4, 0.3, 1.0)); // casts a shadow now
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    graph.deform(2, 0.3f);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    CHECK(view.statistics().conversions == before); // both were done alone
+
+    RayTracedScene::setHint(graph.objects[2], RayTracedScene::RASTERIZE_ONLY);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    CHECK(view.statistics().conversion.count(kProxy) == 0);
+    RayTracedScene::setHint(graph.objects[2], RayTracedScene::AUTOMATIC);
+    view.update();
+    CHECK(proxies() == 1);
+
+    const osg::ref_ptr<osg::Depth> depth = new osg::Depth;
+    graph.objects[2]->getStateSet()->setAttribute(depth);
+    view.update();
+    CHECK(proxies() == 1);
+    depth->setWriteMask(false);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    CHECK(view.statistics().conversion.count(kProxy) == 0);
+    depth->setWriteMask(true);
+    graph.objects[2]->getStateSet()->setRenderBinDetails(1, "RenderBin");
+    view.update();
+    CHECK(proxies() == 1);
+    graph.objects[2]->getStateSet()->setBinNumber(-1);
+    view.update();
+    CHECK(view.statistics().conversion.count(kProxy) == 0);
+
+    graph.objects[2]->getStateSet()->removeAttribute(osg::StateAttribute::PROGRAM);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    graph.root->removeChild(graph.group);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+}
