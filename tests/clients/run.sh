@@ -112,6 +112,7 @@ client()
     local command
     command=$(row "$1" 2)
     command=${command//MODELS/$OUT/models}
+    command=${command//CLIENTS/$HERE}
     if [ "$(row "$1" 1)" = skip ]; then
         echo skipped >"$WORK/verdict"
     elif ! command -v ${command%% *} >/dev/null; then
@@ -120,8 +121,13 @@ client()
         echo "no display" >"$WORK/verdict"
     else
         run plain $command
-        run traced $command
-        judge "$(row "$1" 3)" >"$WORK/verdict"
+        if [ "$(cat "$WORK/plain.exit")" = 77 ]; then
+            rm "$WORK/plain.exit"
+            echo "not installed" >"$WORK/verdict"
+        else
+            run traced $command
+            judge "$(row "$1" 3)" >"$WORK/verdict"
+        fi
         kill $XVFB
         wait $XVFB 2>/dev/null
     fi
