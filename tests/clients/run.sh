@@ -80,7 +80,7 @@ difference()
     done | sort -g | tail -1
 }
 
-# judge BOUND prints "right", or what is wrong.
+# judge BOUND REASON prints "right", or what is wrong.
 judge()
 {
     local plain traced
@@ -95,9 +95,9 @@ judge()
         echo "${tracedFrames:-0} frames instead of ${plainFrames:-0}"
     elif [ -z "$difference" ]; then
         echo "no picture"
-    elif [ "${difference%blank}" != "$difference" ]; then
+    elif [ "${difference%blank}" != "$difference" ] && [ "${2#nothing is seen}" = "$2" ]; then
         echo "a blank picture"
-    elif awk -v d="$difference" -v bound="$1" 'BEGIN { exit !(d > bound) }'; then
+    elif awk -v d="${difference% blank}" -v bound="$1" 'BEGIN { exit !(d > bound) }'; then
         echo "differs by more than $1"
     else
         echo right
@@ -126,7 +126,7 @@ client()
             echo "not installed" >"$WORK/verdict"
         else
             run traced $command
-            judge "$(row "$1" 3)" >"$WORK/verdict"
+            judge "$(row "$1" 3)" "$(row "$1" 4)" >"$WORK/verdict"
         fi
         kill $XVFB
         wait $XVFB 2>/dev/null
