@@ -4,8 +4,8 @@
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv), and
-# "osgraytracebench report" uses gnuplot. The tests of form use clang-format of this version and doxygen.
+# The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv, the examples),
+# and "osgraytracebench report" uses gnuplot. The tests of form use clang-format of this version and doxygen.
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri

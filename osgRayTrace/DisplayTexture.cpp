@@ -140,6 +140,20 @@ void applyChanged(osg::State& state, unsigned int unit, const osg::Texture2D& te
     applyTexture(state, unit, texture);
 }
 
+/// Unbinds sampler objects, whose filters would replace those of the picture: OSG leaves one bound
+/// to a unit on which a scene has had an osg::Sampler.
+void unbindSamplers(osg::State& state)
+{
+    const osg::GLExtensions& extensions = *state.get<osg::GLExtensions>();
+    if (!extensions.glBindSampler) return;
+    for (const unsigned int unit : {kColorUnit, kDepthUnit})
+    {
+        if (!state.getLastAppliedTextureAttribute(unit, osg::StateAttribute::SAMPLER)) continue;
+        extensions.glBindSampler(unit, 0);
+        state.haveAppliedTextureAttribute(unit, osg::StateAttribute::SAMPLER);
+    }
+}
+
 } // namespace
 
 DisplayTexture::Picture::Picture()
@@ -250,6 +264,7 @@ bool DisplayTexture::draw(osg::RenderInfo& renderInfo, const engine::DepthMap& d
     if (!_hasDrawn) makeDeletionLists(state);
     _hasDrawn = true;
     chooseFilter(state);
+    unbindSamplers(state);
     applyPicture(state);
     _triangle->draw(renderInfo);
     if (!state.useVertexArrayObject(_triangle->getUseVertexArrayObject()))

@@ -16,6 +16,8 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/LOD>
+#include <osg/Projection>
+#include <osg/Sequence>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 
@@ -56,14 +58,22 @@ struct BoundsVisitor : osg::ComputeBoundsVisitor
     }
 
     /// Visits all levels: which level is active depends on the view.
-    void apply(osg::LOD& node) override
+    void apply(osg::LOD& node) override { visitAll(node); }
+
+    /// Visits all children: a sequence moves to the next one without a word to its bound.
+    void apply(osg::Sequence& node) override { visitAll(node); }
+
+    /// Leaves out head-up displays: they are in units of their own, and none of what is traced.
+    void apply(osg::Projection&) override {}
+
+private:
+    void visitAll(osg::Group& node)
     {
         if (isTooMuch(node)) return;
         for (unsigned int i = 0; i < node.getNumChildren(); ++i)
             if (const osg::ref_ptr<osg::Node> child = node.getChild(i)) child->accept(*this);
     }
 
-private:
     /// Returns true after too many paths: the node then counts by its sphere, which OSG keeps.
     bool isTooMuch(osg::Node& node)
     {

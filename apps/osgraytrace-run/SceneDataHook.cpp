@@ -3,6 +3,7 @@
 //
 // Preloaded, this definition of osgViewer::View::setSceneData is found before that of libosgViewer,
 // which it calls.
+#include "RunReport.h"
 #include "ToggleKey.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
@@ -65,6 +66,7 @@ osg::ref_ptr<RayTracedScene> tracedScene(osg::Node& node)
     scene->setName("osgraytrace-run");
     scene->addChild(&node);
     known = scene;
+    reportAtExit(*scene);
     return scene;
 }
 
@@ -76,6 +78,18 @@ int toggleKey()
     OSG_WARN << "osgRayTrace: OSGRAYTRACE_TOGGLE_KEY is F1 to F12 or a character, not '" << name
              << "'" << std::endl;
     return osgGA::GUIEventAdapter::KEY_F9;
+}
+
+void sayWhatIsTraced()
+{
+    static std::once_flag said;
+    std::call_once(said,
+                   []
+                   {
+                       OSG_NOTICE << "osgRayTrace: what views show is ray traced; cameras with "
+                                     "scenes of their own are not"
+                                  << std::endl;
+                   });
 }
 
 void addToggleKey(osgViewer::View& view, RayTracedScene* scene)
@@ -96,6 +110,7 @@ osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
     {
         const osg::ref_ptr<RayTracedScene> scene = tracedScene(*node);
         addToggleKey(view, scene.get());
+        sayWhatIsTraced();
         return scene;
     }
     catch (const std::exception& error)
@@ -111,5 +126,6 @@ osg::ref_ptr<osg::Node> shownFor(osgViewer::View& view, osg::Node* node)
 
 __attribute__((visibility("default"))) void osgViewer::View::setSceneData(osg::Node* node)
 {
+    const osg::ref_ptr<osg::Node> kept = node; // many programs leave the only reference to the view
     osgRayTrace::app::original()(this, osgRayTrace::app::shownFor(*this, node).get());
 }

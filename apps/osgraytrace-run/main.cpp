@@ -20,16 +20,23 @@ constexpr int kCannotStart = 127; // code of shells
 constexpr long kMostPasses = 1 << 24;
 
 constexpr const char* kHelp =
-    "Usage: osgraytrace-run [--passes N] PROGRAM [ARGUMENTS...]\n"
+    "Usage: osgraytrace-run [--passes N] [--report FILE] PROGRAM [ARGUMENTS...]\n"
     "Starts an OpenSceneGraph program that knows nothing of osgRayTrace with its scenes ray "
     "traced.\n"
     "\n"
     "  --passes N, --max-passes N  passes at most, as OSGRAYTRACE_MAX_PASSES=N\n"
+    "  --report FILE               writes to FILE, when PROGRAM ends, what was ray traced and\n"
+    "                              what was left to OSG; as OSGRAYTRACE_RUN_REPORT=FILE\n"
     "\n"
     "Environment:\n"
     "  OSGRAYTRACE_...         settings: osgraytrace --list-options names each one's variable\n"
     "  OSGRAYTRACE_TOGGLE_KEY  key that switches ray tracing off and on: F1 to F12, or a character "
     "(F9)\n"
+    "\n"
+    "Limitations: what views show is ray traced, by osgViewer's View::setSceneData. Cameras with "
+    "scenes of\n"
+    "their own and scenes drawn by osgUtil::SceneView stay OSG's, as do programs that hold an "
+    "OSG of their own.\n"
     "\n"
     "Exit code: that of PROGRAM; 1 usage, 2 our library is missing, 4 this cannot be printed,\n"
     "127 PROGRAM cannot be started.\n";
@@ -54,27 +61,52 @@ void prepend(const char* variable, const std::string& value, char separator)
     setenv(variable, list.c_str(), 1);
 }
 
+bool isPasses(const char* argument)
+{
+    return !std::strcmp(argument, "--passes") || !std::strcmp(argument, "--max-passes");
+}
+
+bool isReport(const char* argument)
+{
+    return !std::strcmp(argument, "--report");
+}
+
+bool setPasses(const char* option, const char* value)
+{
+    const std::size_t digits = std::strspn(value, "0123456789");
+    const long passes = digits < 9 ? std::strtol(value, nullptr, 10) : 0;
+    if (value[digits] != '\0' || passes < 1 || passes > kMostPasses)
+    {
+        std::cerr << "osgraytrace-run: " << option << ' ' << value << ": the values are 1 .. "
+                  << kMostPasses << '\n';
+        return false;
+    }
+    setenv("OSGRAYTRACE_MAX_PASSES", value, 1);
+    return true;
+}
+
+/// Names the file of the report, which PROGRAM may write from another folder; an older report does
+/// not stay.
+void reportTo(const char* file)
+{
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::absolute(file, error);
+    if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);
+    setenv("OSGRAYTRACE_RUN_REPORT", path.c_str(), 1);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
     const bool help = argc > 1 && (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h"));
     int first = 1;
-    const auto isPasses = [](const char* argument)
-    { return !std::strcmp(argument, "--passes") || !std::strcmp(argument, "--max-passes"); };
-    while (first + 1 < argc && isPasses(argv[first]))
+    for (; first + 1 < argc && (isPasses(argv[first]) || isReport(argv[first])); first += 2)
     {
-        const char* value = argv[first + 1];
-        const std::size_t digits = std::strspn(value, "0123456789");
-        const long passes = digits < 9 ? std::strtol(value, nullptr, 10) : 0;
-        if (value[digits] != '\0' || passes < 1 || passes > kMostPasses)
-        {
-            std::cerr << "osgraytrace-run: " << argv[first] << ' ' << value
-                      << ": the values are 1 .. " << kMostPasses << '\n';
+        if (isReport(argv[first]))
+            reportTo(argv[first + 1]);
+        else if (!setPasses(argv[first], argv[first + 1]))
             return kUsage;
-        }
-        setenv("OSGRAYTRACE_MAX_PASSES", value, 1);
-        first += 2;
     }
     if (argc <= first || help)
     {

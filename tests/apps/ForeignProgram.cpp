@@ -29,6 +29,8 @@ int main()
     std::cout << viewer.getEventHandlers().size() - handlers << " more handlers\n";
     viewer.setSceneData(nullptr);
     print("cleared", viewer);
+    viewer.setSceneData(new osg::Group); // nobody but the view refers to it
+    print("new", viewer);
 
     osgViewer::CompositeViewer composite;
     for (int i = 0; i < 2; ++i)

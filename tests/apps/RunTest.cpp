@@ -20,6 +20,7 @@ TEST_CASE("osgraytrace-run: the scenes of another program are ray traced", "[app
     const Outcome outcome = run(kForeign);
     CHECK(outcome.exitCode == 7); // the program's own exit code
     CHECK(outcome.output == "viewer RayTracedScene\n0 more handlers\ncleared nothing\n"
+                            "new RayTracedScene\n"
                             "view RayTracedScene\nview RayTracedScene\nshared 1\n");
     CHECK(outcome.errors.empty());
 }
@@ -40,6 +41,20 @@ TEST_CASE("osgraytrace-run: keys are names or characters", "[apps]")
     CHECK(wrong.errors.find("'escape'") != std::string::npos);
 }
 
+TEST_CASE("osgraytrace-run: a report of the scenes is written when the program ends", "[apps]")
+{
+    const TemporaryFolder folder;
+    std::ofstream(folder / "report.txt") << "of an earlier run";
+    CHECK(osgraytrace(folder, "--report report.txt " + kForeign).exitCode == 7);
+    CHECK(std::filesystem::exists(folder / "report.txt"));
+    CHECK(contents(folder / "report.txt").find("earlier") == std::string::npos);
+    CHECK(osgraytrace(folder, "--report report.txt true").exitCode == 0); // a program without OSG
+    CHECK_FALSE(std::filesystem::exists(folder / "report.txt"));
+    const Outcome nowhere = run("--report /no-such-folder/report.txt " + kForeign);
+    CHECK(nowhere.exitCode == 7);
+    CHECK(nowhere.errors.find("/no-such-folder/report.txt") != std::string::npos);
+}
+
 TEST_CASE("osgraytrace-run: wrong usage", "[apps]")
 {
     CHECK(run("").exitCode == 1);
@@ -49,6 +64,7 @@ TEST_CASE("osgraytrace-run: wrong usage", "[apps]")
     for (const char* wrong : {"--passes 0 ", "--passes many ", "--max-passes 16777217 "})
         CHECK(run(wrong + kForeign).exitCode == 1);
     CHECK(run("--passes 5").exitCode == 1);
+    CHECK(run("--report report.txt").exitCode == 1);
     CHECK(run("--passes 5 sh -c 'echo $OSGRAYTRACE_MAX_PASSES'").output == "5\n");
     const Outcome missing = run("no-such-program");
     CHECK(missing.exitCode == 127);

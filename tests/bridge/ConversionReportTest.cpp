@@ -5,6 +5,8 @@
 #include "tests/bridge/Graphs.h"
 #include "tests/bridge/Messages.h"
 
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+
 #include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/Statistics>
 
@@ -111,9 +113,40 @@ TEST_CASE("conversion report: each reason is named once, with its first object",
     CHECK(messages.timesSaid("converted") == 0);
 }
 
-// A reason whose objects have a line each needs no line of its own.
-TEST_CASE("conversion report: what is named object by object is not named again", "[bridge]")
+TEST_CASE("conversion report: the log has two lines for a reason, however many objects there are",
+          "[bridge]")
 {
+    forgetKindsOfWarnings();
+    osg::ref_ptr<osg::Group> root = town();
+    for (int i = 0; i < 100; ++i)
+    {
+        const auto broken = named("broken" + std::to_string(i));
+        const GLuint beyond[] = {0, 1, 77};
+        broken->setPrimitiveSet(0, new osg::DrawElementsUInt(GL_TRIANGLES, 3, beyond));
+        root->addChild(broken);
+        osg::ref_ptr<osg::MatrixTransform> flat = new osg::MatrixTransform;
+        flat->setName("flat" + std::to_string(i));
+        flat->setMatrix(osg::Matrixd::scale(1.0, 1.0, 0.0));
+        root->addChild(flat);
+    }
+    const test::Messages messages;
+    SceneConverter converter;
+    const ConversionResult result = converter.convert(inputFor(root));
+    CHECK(countOf(result, "skipped.index-out-of-range") == 100);
+    CHECK(countOf(result, "skipped.singular-transform") == 100);
+    root->addChild(named("another")); // a later conversion says nothing new
+    converter.convert(inputFor(root));
+    CHECK(messages.timesSaid("\n") == 4);
+    CHECK(messages.timesSaid("town/broken0'") == 1);
+    CHECK(messages.timesSaid("town/flat0'") == 1);
+    CHECK(messages.timesSaid("skipped.index-out-of-range: there are more") == 1);
+    CHECK(messages.timesSaid("skipped.singular-transform: there are more") == 1);
+}
+
+// A reason whose first object has a line needs no line of its own.
+TEST_CASE("conversion report: what is named by its object is not named again", "[bridge]")
+{
+    forgetKindsOfWarnings();
     osg::ref_ptr<osg::Group> root = town();
     root->addChild(new EnvironmentLight); // this light has no image
     root->addChild(new osg::MatrixTransform(osg::Matrix::scale(0.0, 1.0, 1.0)));

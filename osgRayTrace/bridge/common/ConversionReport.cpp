@@ -16,12 +16,18 @@ namespace
 
 const char* const kMissing = "missing.";
 
-/// Returns whether warnAboutGeometry names the reason for each geometry.
+/// Returns whether warnAboutGeometry names the first geometry of the reason.
 bool isNamedByGeometry(const std::string& what)
 {
     return std::any_of(std::begin(kReportReasons), std::end(kReportReasons),
                        [&what](const ReportReason& reason)
                        { return reason.warning && what == reason.key; });
+}
+
+/// Returns whether the objects are names in the user's own settings: each of these few is named.
+bool isOfSettings(const std::string& what)
+{
+    return what == "warned.material-name" || what == "warned.light-size";
 }
 
 bool begins(const std::string& text, const char* with)
@@ -82,7 +88,10 @@ void ConversionReport::warn(const std::string& what, const std::string& object,
     count(what);
     _named.insert(what);
     if (!_place) recordPath(what, object);
-    warnOnce(object + ": " + message);
+    if (isOfSettings(what))
+        warnOnce(object + ": " + message);
+    else
+        warnOfKind(what, object + ": " + message);
 }
 
 void ConversionReport::missing(const std::string& what, const std::string& file,
@@ -91,7 +100,7 @@ void ConversionReport::missing(const std::string& what, const std::string& file,
     count(what);
     _named.insert(what);
     recordPath(what, file);
-    warnOnce(object + " " + file + ": the file cannot be read, " + instead);
+    warnOfKind(what, object + " " + file + ": the file cannot be read, " + instead);
 }
 
 void ConversionReport::addHere(const ConversionReport& other)
@@ -110,8 +119,8 @@ void warnAboutGeometry(const std::string& path, const ConversionCounts& counts)
     {
         const auto found = reason.warning ? counts.find(reason.key) : counts.end();
         if (found == counts.end()) continue;
-        warnOnce("geometry '" + path + "': " + std::to_string(found->second) + " " +
-                 reason.warning);
+        warnOfKind(reason.key, "geometry '" + path + "': " + std::to_string(found->second) + " " +
+                                   reason.warning);
     }
 }
 

@@ -46,7 +46,7 @@ using ConversionPaths = std::map<std::string, std::vector<std::string>>;
 
 constexpr std::size_t kPathsKept = 4;
 
-/// Counts and warns about bad data: once for each object and reason, as long as the process lives.
+/// Counts bad data. The log gets the first object of a reason, and a line that there are more.
 class ConversionReport
 {
 public:
@@ -64,11 +64,11 @@ public:
     /// Counts one object by the cause, such as "rule 'glass'", which is named with the first place.
     void countFor(const std::string& what, const std::string& cause);
 
-    /// Counts one skipped or changed object and names it: "transform 'root/arm': singular,
+    /// Counts a skipped or changed object, names the first: "transform 'root/arm': singular,
     /// skipped".
     void warn(const std::string& what, const std::string& object, const std::string& message);
 
-    /// Counts a file that could not be read, and names it: "texture wall.png: the file cannot be
+    /// Counts a file that could not be read, names the first: "texture wall.png: the file cannot be
     /// read, " and the substitute.
     void missing(const std::string& what, const std::string& file, const std::string& object,
                  const std::string& instead);
@@ -82,7 +82,7 @@ public:
     uint64_t remarks() const { return _remarks; }
     const ConversionPaths& paths() const { return _paths; }
 
-    /// Returns whether warn has named this reason, with a line for each object.
+    /// Returns whether warn has named the first object of this reason.
     bool isNamed(const std::string& what) const { return _named.count(what) > 0; }
 
 private:
@@ -95,11 +95,11 @@ private:
     Place _place;
 };
 
-/// Warns about the omissions of a geometry, in one line for each reason.
+/// Warns about the omissions of a geometry, if it is the first one of a reason.
 void warnAboutGeometry(const std::string& path, const ConversionCounts& counts);
 
 /// Names each reason why something does not look as OpenGL shows it, once in the life of the
-/// process, with the first object. Reasons that are named object by object are left out.
+/// process, with the first object. Reasons whose first object has its line are left out.
 /// rasterizesRest: parts that are not traced are drawn by OSG, and not worth a warning.
 void warnOnceAReason(const ConversionReport& report, bool rasterizesRest);
 

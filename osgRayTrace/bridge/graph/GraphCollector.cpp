@@ -5,7 +5,6 @@
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/common/NodeKind.h"
-#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/StatesAbove.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
@@ -392,11 +391,6 @@ osg::Matrixd GraphCollector::engineFromLocal() const
 uint32_t GraphCollector::pickPath()
 {
     return _input.picks && !_isCaptured ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
-}
-
-std::string GraphCollector::path() const
-{
-    return pathText(getNodePath());
 }
 
 } // namespace osgRayTrace::engine

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
@@ -210,7 +211,7 @@ private:
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
     uint32_t pickPath();
-    std::string path() const;
+    std::string path() const { return pathText(getNodePath()); }
 
     const ConversionInput& _input;
     SoftwareVertices& _vertices;

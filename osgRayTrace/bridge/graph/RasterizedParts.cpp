@@ -106,7 +106,9 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
     {
         osgUtil::RenderStage* stage = visitor.getCurrentRenderBin()->getStage();
         if (clear->getRequiresClear()) stage->setClearColor(clear->getClearColor());
-        stage->setClearMask(clear->getRequiresClear() ? clear->getClearMask() : 0);
+        // A sky that clears by its own Depth is traced, and leaves the depth buffer as it was.
+        stage->setClearMask(clear->getRequiresClear() ? clear->getClearMask()
+                                                      : GL_DEPTH_BUFFER_BIT);
     }
 }
 

@@ -3,6 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/stability/geometry/Pictured.h"
 
+#include "osgRayTrace/bridge/common/WarnOnce.h"
+
 #include <cmath>
 #include <limits>
 
@@ -150,6 +152,7 @@ TEST_CASE("stability 14: bad indices and empty arrays are refused by drawable, w
     const GLuint pair[] = {0, 1};
     two->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES, 2, pair));
 
+    forgetKindsOfWarnings();
     const Messages messages;
     const osg::ref_ptr<osg::Group> root =
         lit({beyond, empty, none, noIndices, two, Grid().geometry()});

@@ -5,6 +5,7 @@
 #include "tests/stability/geometry/Pictured.h"
 
 #include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <osgRayTrace/Renderer>
@@ -61,6 +62,7 @@ TEST_CASE("caps: a path of 5000 nodes is traced, what is deeper is skipped and n
     CHECK(deepest.scene->instances.size() == 1);
     CHECK(countOf(deepest, "skipped.too-deep") == 0);
 
+    forgetKindsOfWarnings();
     const Messages messages;
     const auto tooDeep = chain(kDeepestPath);
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -75,6 +77,7 @@ TEST_CASE("caps: a path of 5000 nodes is traced, what is deeper is skipped and n
 
 TEST_CASE("caps: a texture of more than 2^28 texels or 4 GiB is magenta, and named", "[stability]")
 {
+    forgetKindsOfWarnings();
     const Messages messages;
     for (const auto& image : {claimed(1 << 15, (1 << 13) + 1, GL_LUMINANCE, GL_UNSIGNED_BYTE),
                               claimed(1 << 14, 1 << 14, GL_RGBA, GL_FLOAT),
