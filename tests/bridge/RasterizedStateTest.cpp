@@ -6,6 +6,8 @@
 
 #include <osg/ColorMask>
 #include <osg/FragmentProgram>
+#include <osg/LogicOp>
+#include <osg/PolygonStipple>
 #include <osg/Program>
 #include <osg/Stencil>
 
@@ -160,6 +162,17 @@ TEST_CASE("programs of any class, stencils and colour masks leave their geometry
         mask->setMask(true, false, true, true);
         CHECK(counted(geometry, "color-mask") == 1);
         CHECK(countOf(convertGraph(geometry), "approximated.color-mask") == 1);
+    }
+    SECTION("logic operations and stipples")
+    {
+        CHECK(counted(geometry, "logic-operation") == 0);
+        state.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::COPY_INVERTED));
+        CHECK(counted(geometry, "logic-operation") == 1);
+        CHECK(countOf(convertGraph(geometry), "approximated.logic-operation") == 1);
+        state.setMode(GL_COLOR_LOGIC_OP, osg::StateAttribute::OFF);
+        state.setAttributeAndModes(new osg::PolygonStipple);
+        CHECK(counted(geometry, "polygon-stipple") == 1);
+        CHECK(countOf(convertGraph(geometry), "approximated.polygon-stipple") == 1);
     }
     SECTION("not those above the scene, which hold for its picture")
     {

@@ -279,6 +279,18 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
     }
 }
 
+TEST_CASE("cull content: a transform that asks the cull visitor for its eye", "[gl][cull]")
+{
+    osg::ref_ptr<EyeFollower> follower = new EyeFollower;
+    const osg::ref_ptr<osg::Geometry> square = unlitSquare(0.4f, kRed);
+    follower->addChild(raised(square.get(), -1.5f));
+    follower->setCullingActive(false); // its bound is where the eye is not
+    View view(follower.get());
+    checkPicture(view);
+    CHECK(view.count("converted.culled") == 1);
+    CHECK(view.count("rasterized.foreign-node") == 0);
+}
+
 TEST_CASE("cull content: what only hides changes nothing", "[gl][cull]")
 {
     const osg::ref_ptr<osg::Geometry> square = unlitSquare(0.3f, kRed);

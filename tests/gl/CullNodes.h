@@ -8,6 +8,7 @@
 #include <osg/MatrixTransform>
 #include <osg/State>
 #include <osg/StateAttribute>
+#include <osg/Transform>
 #include <osgUtil/CullVisitor>
 
 #include <array>
@@ -65,6 +66,18 @@ public:
 
 private:
     bool _hides;
+};
+
+/// Moves what is below to the eye of a cull visitor alone, as examples of OSG do with their skies.
+class EyeFollower : public osg::Transform
+{
+public:
+    bool computeLocalToWorldMatrix(osg::Matrix& matrix, osg::NodeVisitor* visitor) const override
+    {
+        if (const osgUtil::CullVisitor* cull = visitor ? visitor->asCullVisitor() : nullptr)
+            matrix.preMultTranslate(osg::Vec3(cull->getEyeLocal()));
+        return true;
+    }
 };
 
 class Throwing : public osg::NodeCallback

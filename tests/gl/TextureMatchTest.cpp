@@ -167,6 +167,19 @@ TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl
     CHECK(matches("texgen-node", root, obliquely()));
 }
 
+TEST_CASE("match: a TexGenNode of eye space moves with the view", "[gl][coverage]")
+{
+    const auto ball = fineSphere(1.5f);
+    ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
+    generate(*ball, 0, nullptr);
+    const osg::ref_ptr<osg::TexGenNode> node =
+        new osg::TexGenNode(linearTexGen(osg::TexGen::EYE_LINEAR));
+    node->setTextureUnit(0);
+    node->setReferenceFrame(osg::TexGenNode::ABSOLUTE_RF);
+    const auto root = groupOf({node, placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
+    CHECK(matches("texgen-node-absolute", root, obliquely()));
+}
+
 TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][coverage]")
 {
     const auto setup = GENERATE(0, 1) == 0 ? MatchSetup() : obliquely();

@@ -75,6 +75,7 @@ public:
 
     void apply(osg::TexGenNode& node) override
     {
+        if (node.getReferenceFrame() == osg::TexGenNode::ABSOLUTE_RF) hashView();
         _hasher.add(node.getReferenceFrame(), node.getTextureUnit());
         _hasher.addObject(node.getTexGen());
         if (node.getTexGen()) addTexGen(_hasher, *node.getTexGen());

@@ -50,6 +50,10 @@ std::optional<unsigned int> modeBit(osg::StateAttribute::GLMode mode)
         return kPolygonOffsetBit;
     case GL_STENCIL_TEST:
         return kStencilBit;
+    case GL_COLOR_LOGIC_OP:
+        return kLogicOpBit;
+    case GL_POLYGON_STIPPLE:
+        return kPolygonStippleBit;
     case GL_VERTEX_PROGRAM_ARB:
     case GL_FRAGMENT_PROGRAM_ARB:
         return kAssemblyProgramBit;

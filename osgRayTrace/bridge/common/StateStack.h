@@ -34,6 +34,8 @@ enum ModeBit : unsigned int
     kPolygonOffsetBit = kClipPlaneBitEnd,
     kStencilBit,
     kAssemblyProgramBit, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB
+    kLogicOpBit,
+    kPolygonStippleBit,
     kTextureUnitBit,     ///< first bit of unit 0, see UnitBit; those of unit 1 follow
     /// Any texture target of units 2, 3, ...: up to bit 63.
     kHigherTextureBit = kTextureUnitBit + 10,

@@ -68,18 +68,10 @@ void visitBelow(osg::Node& node, osgUtil::CullVisitor& visitor)
 {
     visitor.pushOntoNodePath(&node);
     if (const osg::StateSet* stateSet = node.getStateSet()) visitor.pushStateSet(stateSet);
-    osg::Transform* transform = node.asTransform();
-    if (transform)
-    {
-        osg::ref_ptr<osg::RefMatrix> matrix = new osg::RefMatrix(*visitor.getModelViewMatrix());
-        transform->computeLocalToWorldMatrix(*matrix, &visitor);
-        visitor.pushModelViewMatrix(matrix.get(), transform->getReferenceFrame());
-    }
     ChildFinder finder(visitor);
     node.traverse(finder);
     for (const osg::ref_ptr<osg::Node>& child : finder.found)
         child->accept(visitor);
-    if (transform) visitor.popModelViewMatrix();
     if (node.getStateSet()) visitor.popStateSet();
     visitor.popFromNodePath();
 }
@@ -226,9 +218,9 @@ CapturedContent CullCapture::node(const osg::NodePath& path,
 }
 
 CapturedContent CullCapture::below(const osg::NodePath& path,
-                                   const osg::Matrixd& worldFromParent) const
+                                   const osg::Matrixd& worldFromNode) const
 {
-    return run(path, worldFromParent, visitBelow);
+    return run(path, worldFromNode, visitBelow);
 }
 
 } // namespace osgRayTrace::engine

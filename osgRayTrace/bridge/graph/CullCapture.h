@@ -47,8 +47,9 @@ public:
     CapturedContent node(const osg::NodePath& path, const osg::Matrixd& worldFromParent) const;
 
     /// Captures what plain traversals meet directly below the last node of the path, in the state
-    /// and the place that the node's class has in OSG: without what the node itself does in cull.
-    CapturedContent below(const osg::NodePath& path, const osg::Matrixd& worldFromParent) const;
+    /// that the node's class has in OSG and in the place worldFromNode: without what the node
+    /// itself does in cull.
+    CapturedContent below(const osg::NodePath& path, const osg::Matrixd& worldFromNode) const;
 
 private:
     template <class Visit>

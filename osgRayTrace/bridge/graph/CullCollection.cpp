@@ -158,7 +158,11 @@ CullOutcome GraphCollector::cullOutcome()
     if (!outcome.error.empty()) return outcome;
     outcome.captured = culled.leaves.size();
     outcome.signature = signatureOf(culled.leaves);
-    const CapturedContent walked = capture.below(outcome.path, _worldFromLocal.back());
+    // A transform may ask the cull visitor for its eye, as those of skies do.
+    const osg::Transform* transform = outcome.path.back()->asTransform();
+    const osg::Matrixd& outer = _worldFromLocal.back();
+    const CapturedContent walked = capture.below(
+        outcome.path, transform ? worldFromLocal(*transform, outer, *this, _input.view) : outer);
     if (walked.error.empty() && finds(walked.leaves, culled.leaves))
     {
         outcome.kind = CullOutcome::Plain;

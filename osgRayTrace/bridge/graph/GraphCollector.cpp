@@ -175,12 +175,14 @@ void GraphCollector::apply(osg::ProxyNode& node)
 void GraphCollector::apply(osg::TexGenNode& node)
 {
     const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
-    if (!inScene)
+    if (!inScene && !_input.view)
         _report.count("approximated.absolute-texgen"); // OpenGL has eye space, this world space
+    const osg::Matrixd worldFromPlanes = inScene       ? _worldFromLocal.back()
+                                         : _input.view ? worldFromEye()
+                                                       : osg::Matrixd();
     if (node.getTexGen() && node.getTextureUnit() < kUnits)
-        _graph.texGens[node.getTextureUnit()] = {node.getTexGen(),
-                                                 inScene ? engineFromLocal()
-                                                         : osg::Matrixd::translate(-_input.origin)};
+        _graph.texGens[node.getTextureUnit()] = {
+            node.getTexGen(), worldFromPlanes * osg::Matrixd::translate(-_input.origin)};
     rasterize(RasterizedPart::PlaceState);
     apply(static_cast<osg::Node&>(node));
 }

@@ -113,8 +113,8 @@ void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
 }
 
 /// Returns whether a part mixes with the traced picture. A colour mask leaves channels of the
-/// picture beneath, which is the traced one: DisplayTexture draws it in bin 1. Whoever has chosen a
-/// bin has chosen an order.
+/// picture beneath, and a logic operation combines with it; that picture is the traced one:
+/// DisplayTexture draws it in bin 1. Whoever has chosen a bin has chosen an order.
 bool mixesWithPicture(const RasterizedPart& part)
 {
     bool masks = false;
@@ -123,7 +123,8 @@ bool mixesWithPicture(const RasterizedPart& part)
         const osg::StateSet* stateSet = node->getStateSet();
         if (!stateSet) continue;
         if (stateSet->useRenderBinDetails()) return false;
-        masks = masks || stateSet->getAttribute(osg::StateAttribute::COLORMASK);
+        masks = masks || stateSet->getAttribute(osg::StateAttribute::COLORMASK) ||
+                stateSet->getAttribute(osg::StateAttribute::LOGICOP);
     }
     return masks;
 }

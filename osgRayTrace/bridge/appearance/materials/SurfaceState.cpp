@@ -88,6 +88,8 @@ void countApproximations(const GraphState& state, ConversionReport& report)
     if (programOf(state) && !replaced) report.count("approximated.shader");
     if (usesStencil(state)) report.count("approximated.stencil");
     if (masksColor(state)) report.count("approximated.color-mask");
+    if (state.isOn(kLogicOpBit)) report.count("approximated.logic-operation");
+    if (state.isOn(kPolygonStippleBit)) report.count("approximated.polygon-stipple");
     const Blending blending = blendingOf(state);
     if (blending == Blending::Additive || blending == Blending::Other)
         report.count("approximated.blending");
