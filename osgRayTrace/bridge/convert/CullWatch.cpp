@@ -22,34 +22,44 @@ constexpr std::size_t kDrawablesASubtree = 4;
 /// In one of so many rounds, places are compared where nothing was added, not only drawables.
 constexpr std::size_t kRoundsByDrawables = 16;
 
-uint64_t hashOf(const osg::StateSet& stateSet)
+} // namespace
+
+uint64_t CullWatch::hashOf(const osg::StateSet& stateSet) const
 {
     Hasher hasher;
-    addStateSet(hasher, stateSet);
+    addStateSet(hasher, stateSet, _reads.get());
     return hasher.value();
+}
+
+uint64_t CullWatch::hashOf(osg::Drawable& drawable) const
+{
+    ViewingConditions conditions;
+    conditions.reads = _reads;
+    return graphHash(drawable, conditions);
 }
 
 /// Returns whether a state set has the values that another one had when it was converted. Callbacks
 /// may take turns with two state sets of the same values.
-bool sameValues(const osg::StateSet& before, uint64_t hashBefore, const osg::StateSet& now)
+bool CullWatch::sameValues(const osg::StateSet& before, uint64_t hashBefore,
+                           const osg::StateSet& now) const
 {
     if (hashOf(before) != hashBefore) return false;
     return &before == &now || before.compare(now, true) == 0;
 }
 
-} // namespace
-
-CullWatch::LeafValues CullWatch::valuesOf(const CapturedLeaf& leaf)
+CullWatch::LeafValues CullWatch::valuesOf(const CapturedLeaf& leaf) const
 {
     LeafValues values;
     for (const osg::ref_ptr<const osg::StateSet>& stateSet : leaf.states)
         values.states.push_back(hashOf(*stateSet));
-    values.content = graphHash(*leaf.drawable, ViewingConditions());
+    values.content = hashOf(*leaf.drawable);
     return values;
 }
 
-void CullWatch::record(std::vector<CullOutcome> outcomes, bool unknown)
+void CullWatch::record(std::vector<CullOutcome> outcomes, bool unknown,
+                       std::shared_ptr<const ShaderReads> reads)
 {
+    _reads = std::move(reads);
     _watched.clear();
     _unknown = unknown;
     _next = _credit = 0;
@@ -63,7 +73,7 @@ void CullWatch::record(std::vector<CullOutcome> outcomes, bool unknown)
     }
 }
 
-bool CullWatch::isSame(const Watched& before, const CullOutcome& now, double eyeDistance)
+bool CullWatch::isSame(const Watched& before, const CullOutcome& now, double eyeDistance) const
 {
     const CullOutcome& then = before.outcome;
     if (now.kind != then.kind || now.isDrawn() != then.isDrawn() ||
@@ -75,7 +85,7 @@ bool CullWatch::isSame(const Watched& before, const CullOutcome& now, double eye
         const LeafValues& values = before.values[i];
         if (leaf.drawable != last.drawable || leaf.states.size() != last.states.size() ||
             !sameMatrix(leaf.worldFromLocal, last.worldFromLocal, eyeDistance) ||
-            graphHash(*leaf.drawable, ViewingConditions()) != values.content)
+            hashOf(*leaf.drawable) != values.content)
             return false;
         for (std::size_t s = 0; s < leaf.states.size(); ++s)
             if (!sameValues(*last.states[s], values.states[s], *leaf.states[s])) return false;

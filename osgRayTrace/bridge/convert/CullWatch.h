@@ -10,6 +10,7 @@
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,9 @@ public:
         RuleCaches& rules;
     };
 
-    /// unknown: there was such a subtree, but no view.
-    void record(std::vector<CullOutcome> outcomes, bool unknown);
+    /// unknown: there was such a subtree, but no view. reads is as in ViewingConditions.
+    void record(std::vector<CullOutcome> outcomes, bool unknown,
+                std::shared_ptr<const ShaderReads> reads);
 
     bool isEmpty() const { return _watched.empty() && !_unknown; }
 
@@ -58,10 +60,15 @@ private:
 
     bool holds(Watched& watched, const ConversionInput& input, const Caches& caches);
     bool isInPlain(const CullOutcome& outcome) const;
-    static LeafValues valuesOf(const CapturedLeaf& leaf);
-    static bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance);
+    uint64_t hashOf(const osg::StateSet& stateSet) const;
+    uint64_t hashOf(osg::Drawable& drawable) const;
+    LeafValues valuesOf(const CapturedLeaf& leaf) const;
+    bool sameValues(const osg::StateSet& before, uint64_t hashBefore,
+                    const osg::StateSet& now) const;
+    bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance) const;
 
     std::vector<Watched> _watched;
+    std::shared_ptr<const ShaderReads> _reads;
     bool _unknown = false;
     std::size_t _next = 0;   ///< index of the subtree to look at
     std::size_t _credit = 0; ///< drawables that calls have left

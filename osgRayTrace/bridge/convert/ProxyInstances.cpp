@@ -17,9 +17,9 @@ void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryU
 TracedUse SceneBuilder::newProxy(const CollectedGeometry& geometry, const GeometryUse& use,
                                  Instance instance)
 {
-    Material material =
-        _materials.material(proxyState(_graph.states[use.state]), surfaceInputs(*geometry.geometry),
-                            {use.engineFromLocal, &_graph.texGens});
+    Material material = _materials.material(proxyState(_graph.states[use.state]),
+                                            surfaceInputs(*geometry.geometry, _input.pointRadius),
+                                            {use.engineFromLocal, &_graph.texGens});
     hideFromCamera(material);
     instance.material = _convertedGraph.materials.add(material);
     instance.changed = _rules.now;

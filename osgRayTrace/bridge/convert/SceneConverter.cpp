@@ -181,7 +181,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.lights = std::move(graph.lights);
     state.convertedGraph.lightCounts = lightReport.counts();
     state.convertedGraph.texGens = graph.texGens;
-    state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown);
+    state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown,
+                                          input.materials ? input.materials->reads : nullptr);
     addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
     state.caches.vertices.end();
     state.caches.rules.end();
