@@ -300,7 +300,10 @@ TEST_CASE("proxies: nothing else looks different because of them", "[bridge]")
     root->addChild(triangleGeometry());
     const auto drawn = shaded();
     osg::StateSet& state = *drawn->getStateSet();
-    state.setAttribute(new PhysicalMaterial);
+    // A material beside the program would have the surface traced.
+    const osg::ref_ptr<osg::Group> above = new osg::Group;
+    above->getOrCreateStateSet()->setAttribute(new PhysicalMaterial);
+    above->addChild(drawn);
     const osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
     model->setAmbientIntensity(osg::Vec4(0.7f, 0.7f, 0.7f, 1.0f));
     state.setAttribute(model);
@@ -309,7 +312,7 @@ TEST_CASE("proxies: nothing else looks different because of them", "[bridge]")
     red->setColorMode(osg::Material::DIFFUSE);
     state.setAttribute(red);
     const ConversionResult without = convertForViewer(root);
-    root->addChild(drawn);
+    root->addChild(above);
     const ConversionResult with = convertForViewer(root);
     REQUIRE(countOf(with, kProxy) == 1);
     CHECK(with.scene->displayReferred);

@@ -376,9 +376,9 @@ TEST_CASE("cull content: an attribute of type program is a program", "[gl][cull]
     View view(square.get());
     checkPicture(view);
     CHECK(view.count("rasterized.shader-program") == 1);
-    CHECK(view.count("converted.instance") == 1);
+    CHECK(view.count("converted.geometry") == 1);
     square->getStateSet()->setAttribute(new osg::Program); // one without shaders does nothing
     checkPicture(view);
     CHECK(view.count("rasterized.shader-program") == 0);
-    CHECK(view.count("converted.instance") == 2);
+    CHECK(view.count("converted.geometry") == 2);
 }

@@ -27,7 +27,8 @@ bool isNamedByGeometry(const std::string& what)
 /// Returns whether the objects are names in the user's own settings: each of these few is named.
 bool isOfSettings(const std::string& what)
 {
-    return what == "warned.material-name" || what == "warned.light-size";
+    return what == "warned.material-name" || what == "warned.material-value" ||
+           what == "warned.light-size";
 }
 
 bool begins(const std::string& text, const char* with)

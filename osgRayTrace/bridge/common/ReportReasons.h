@@ -15,9 +15,8 @@ struct ReportClass
 /// The classes stand in the order of the report.
 constexpr ReportClass kReportClasses[] = {
     {"converted.", "Ray traced"},
-    {"traced.", "Ray traced with materials of rules, in the place of programs and textures"},
+    {"traced.", "Ray traced by a rule, or for shadows, mirrors and light alone"},
     {"rasterized.", "Has triangles, but is left to OSG to draw"},
-    {"traced.", "Drawn by OSG, but met by shadows, mirrors and light"},
     {"not-traced.", "Cannot be ray traced: drawn by OSG where there is a viewer"},
     {"approximated.", "Ray traced, but not with all that OpenGL does"},
     {"unused.", "Does nothing, as in OpenGL"},
