@@ -36,7 +36,7 @@ enum ModeBit : unsigned int
     kAssemblyProgramBit, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB
     kLogicOpBit,
     kPolygonStippleBit,
-    kTextureUnitBit,     ///< first bit of unit 0, see UnitBit; those of unit 1 follow
+    kTextureUnitBit, ///< first bit of unit 0, see UnitBit; those of unit 1 follow
     /// Any texture target of units 2, 3, ...: up to bit 63.
     kHigherTextureBit = kTextureUnitBit + 10,
     kModeBitEnd = 64,
