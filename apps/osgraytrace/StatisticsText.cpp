@@ -119,7 +119,10 @@ std::string statisticsLine(const Options& options, const Statistics& statistics,
         line += text;
     }
     const std::string blank = blankness(radiance);
-    if (statistics.triangles == 0)
+    const auto proxies = statistics.conversion.find("traced.proxy");
+    const bool proxiesAlone =
+        proxies != statistics.conversion.end() && proxies->second == statistics.instances;
+    if (statistics.triangles == 0 || proxiesAlone)
         line += ", all of it is drawn by OpenGL";
     else if (!blank.empty())
         line += ", " + blank;
