@@ -24,8 +24,6 @@ namespace
 
 constexpr auto kForced = osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED;
 
-const std::string kHookName = "material hook";
-
 /// Takes the diffuse colour and texture of the state.
 void takeColor(const GraphState& state, PhysicalMaterial& material)
 {
@@ -133,7 +131,7 @@ AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack&
     if (_givers.hook)
         if (const osg::ref_ptr<PhysicalMaterial> material = ask(path))
         {
-            result.by = &kHookName;
+            result.by = &_hookName;
             result.state = below(states, *stateSetWith(material));
             return result;
         }

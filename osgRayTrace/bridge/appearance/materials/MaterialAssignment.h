@@ -70,6 +70,7 @@ private:
     const ShaderMatch& shaderMatch(const osg::NodePath& path, uint32_t number,
                                    const GraphState& state);
 
+    const std::string _hookName = "material hook";
     MaterialGivers _givers;
     DerivedTextures& _derived;
     std::set<const MaterialRule*> _used;

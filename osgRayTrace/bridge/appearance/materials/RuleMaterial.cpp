@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 
 namespace osgRayTrace::engine
 {
@@ -18,7 +19,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-const std::string kLetters = "rgba";
+constexpr std::string_view kLetters = "rgba";
 
 /// Makes the material of one rule.
 class MaterialMaker
