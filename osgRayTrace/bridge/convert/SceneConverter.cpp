@@ -74,6 +74,35 @@ bool hasClipping(const std::vector<GraphState>& states)
                        [](const GraphState& state) { return clipPlanesOn(state) != 0; });
 }
 
+void beginCollection(ConversionCaches& caches)
+{
+    caches.vertices.begin();
+    caches.triangles.begin();
+    caches.rules.begin();
+}
+
+/// Forgets in the caches what the graph no longer has.
+void endCollection(ConversionCaches& caches)
+{
+    caches.vertices.end();
+    caches.triangles.end();
+    caches.rules.end();
+}
+
+/// Returns the parts that OSG has to draw; null: the parts show nothing.
+std::shared_ptr<const RasterizedParts> shownParts(RasterizedParts parts)
+{
+    const auto shows = [](const RasterizedPart& part)
+    { return part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Clear; };
+    if (std::none_of(parts.begin(), parts.end(), shows)) return nullptr;
+    return std::make_shared<const RasterizedParts>(std::move(parts));
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 void addToCount(ConversionCounts& counts, const char* what, int64_t more)
 {
     if (more != 0) counts[what] += static_cast<uint64_t>(more);
@@ -144,9 +173,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     rules.now = ++state.stamp;
 
     ConversionReport report;
-    state.caches.vertices.begin();
-    state.caches.triangles.begin();
-    state.caches.rules.begin();
+    beginCollection(state.caches);
     GraphCollector collector(input, state.caches.vertices, state.caches.triangles,
                              state.caches.textures, state.caches.rules, report);
     if (input.root) input.root->accept(collector);
@@ -184,21 +211,15 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown,
                                           input.materials ? input.materials->reads : nullptr);
     addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
-    state.caches.vertices.end();
-    state.caches.rules.end();
-    state.caches.triangles.end();
+    endCollection(state.caches);
 
     result.scene = state.last;
     result.paged = graph.paged;
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
-    const auto shows = [](const RasterizedPart& part)
-    { return part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Clear; };
-    if (std::any_of(graph.rasterized.begin(), graph.rasterized.end(), shows))
-        result.rasterized = std::make_shared<RasterizedParts>(std::move(graph.rasterized));
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.rasterized = shownParts(std::move(graph.rasterized));
+    result.seconds = secondsSince(begin);
     state.lastResult = result;
     return result;
 }
@@ -231,8 +252,7 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     result.emptyInstances = state.convertedGraph.instanceGaps.size();
     result.emptyMeshes =
         state.convertedGraph.meshGaps.size() + (state.convertedGraph.emptyMesh == kInvalid ? 0 : 1);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = secondsSince(begin);
     return {result, {}};
 }
 
