@@ -19,7 +19,6 @@ std::shared_ptr<CullPass> cullPass(osgUtil::CullVisitor& visitor, std::shared_pt
     pass->isClone = pass->visitor && typeid(*pass->visitor) == typeid(visitor);
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
     pass->camera = stage ? stage->getCamera() : nullptr;
-    pass->state = visitor.getState();
     pass->view = visitor.getRenderInfo().getView();
     pass->frameStamp = const_cast<osg::FrameStamp*>(visitor.getFrameStamp());
     return pass;

@@ -5,7 +5,6 @@
 
 #include <osg/Camera>
 #include <osg/FrameStamp>
-#include <osg/State>
 #include <osg/View>
 #include <osg/observer_ptr>
 #include <osg/ref_ptr>
@@ -23,7 +22,6 @@ struct CullPass
     osg::ref_ptr<osgUtil::CullVisitor> visitor; ///< clone
     osg::observer_ptr<osgUtil::CullVisitor> original;
     osg::observer_ptr<osg::Camera> camera;
-    osg::observer_ptr<osg::State> state;
     osg::observer_ptr<osg::View> view;
     osg::ref_ptr<osg::FrameStamp> frameStamp;
     bool isClone = false; ///< false: the visitor's class has no clone() of its own

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/CullCapture.h"
 
+#include <osg/GraphicsContext>
 #include <osg/Transform>
 #include <osg/Viewport>
 #include <osgUtil/RenderStage>
@@ -120,10 +121,8 @@ public:
         : stage(new osgUtil::RenderStage), graph(new osgUtil::StateGraph), _visitor(pass.visitor)
     {
         osg::ref_ptr<osg::Camera> camera;
-        osg::ref_ptr<osg::State> state;
         osg::ref_ptr<osg::View> osgView;
         pass.camera.lock(camera);
-        pass.state.lock(state);
         pass.view.lock(osgView);
         const osg::ref_ptr<osg::Viewport> viewport =
             new osg::Viewport(0.0, 0.0, view.width, view.height);
@@ -140,7 +139,9 @@ public:
         _visitor->setCullingMode(osg::CullSettings::NO_CULLING);
         _visitor->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
         _visitor->setLODScale(view.lodScale);
-        osg::RenderInfo renderInfo(state.get(), osgView.get());
+        // The state is not observed by the pass: draw threads may do so at the same time.
+        osg::GraphicsContext* context = camera ? camera->getGraphicsContext() : nullptr;
+        osg::RenderInfo renderInfo(context ? context->getState() : nullptr, osgView.get());
         if (camera) renderInfo.pushCamera(camera.get());
         _visitor->setRenderInfo(renderInfo);
         _visitor->setStateGraph(graph.get());
