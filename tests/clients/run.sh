@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # run.sh [--build FOLDER] [--out FOLDER] [NAME ...] runs the programs of clients.txt that are named, or all of
 # them, by themselves and with osgraytrace-run. It compares what their windows show without shadows, their
-# exit codes and their frames, prints a line for each, and writes OUT/index.html with the pictures.
+# exit codes, their frames and the drawables that are drawn at all, prints a line for each, and writes
+# OUT/index.html with the pictures.
 # Exit code: 0 all are right, 1 some are not, 2 usage, 77 nothing could be run.
 # Needs a build with the target "clients", Xvfb, and OSG's sample models by OSG_FILE_PATH.
 # SPDX-License-Identifier: MIT
@@ -16,7 +17,7 @@ while [ $# -gt 0 ]; do
     case $1 in
     --build) BUILD=$2; shift 2 ;;
     --out) OUT=$2; shift 2 ;;
-    -*) sed -n '2,7s/^# //p' "$0" >&2; exit 2 ;;
+    -*) sed -n '2,8s/^# //p' "$0" >&2; exit 2 ;;
     *) NAMES+=("$1"); shift ;;
     esac
 done
@@ -55,11 +56,14 @@ start_display()
 # run HOW COMMAND... runs the command in a folder of its own; HOW is plain or traced.
 run()
 {
-    local how=$1 start=()
+    local how=$1 start=() preload=$GRABBER
     shift
-    [ "$how" = plain ] || start=("$BUILD/bin/osgraytrace-run" --report "$WORK/report.txt")
+    if [ "$how" = traced ]; then
+        start=("$BUILD/bin/osgraytrace-run" --report "$WORK/report.txt")
+        preload=$CHECKER:$GRABBER
+    fi
     mkdir -p "$WORK/$how"
-    (cd "$WORK/$how" && OSGRAYTRACE_TEST_PICTURES=$WORK/$how LD_PRELOAD=$GRABBER \
+    (cd "$WORK/$how" && OSGRAYTRACE_TEST_PICTURES=$WORK/$how LD_PRELOAD=$preload \
         timeout -k 5 $SECONDS_EACH "${start[@]}" "$@" >"$WORK/$how.log" 2>&1 </dev/null)
     echo $? >"$WORK/$how.exit"
 }
@@ -68,6 +72,12 @@ run()
 value()
 {
     awk -v key="$2" '$1 == key { print $2 }' "$WORK/$1.txt" 2>/dev/null
+}
+
+# leaves KEY prints what LeafChecker has counted in the scenes of the program.
+leaves()
+{
+    awk -v key="$1" '$1 == key { sum += $2 } END { print sum + 0 }' "$WORK/traced.leaves" 2>/dev/null
 }
 
 # difference prints the largest of the windows' differences, and "blank" if a plain picture is.
@@ -93,6 +103,8 @@ judge()
         echo "exit code $traced instead of $plain"
     elif [ "${plainFrames:-0}" -lt 1 ] || [ "${plainFrames:-0}" != "${tracedFrames:-0}" ]; then
         echo "${tracedFrames:-0} frames instead of ${plainFrames:-0}"
+    elif [ -e "$WORK/traced.leaves" ] && [ "$(leaves lost)" != 0 ]; then
+        echo "$(leaves lost) of $(leaves leaves) leaves lost"
     elif [ -z "$difference" ]; then
         echo "no picture"
     elif [ "${difference%blank}" != "$difference" ] && [ "${2#nothing is seen}" = "$2" ]; then
@@ -131,14 +143,18 @@ client()
         kill $XVFB
         wait $XVFB 2>/dev/null
     fi
-    printf '%-28s %s%s\n' "$1" "$(cat "$WORK/verdict")" "$([ -s "$WORK/difference" ] && echo ", $(cat "$WORK/difference")/255")"
+    printf '%-28s %s%s\n' "$1" "$(cat "$WORK/verdict")" "$([ -s "$WORK/difference" ] &&
+        echo ", $(cat "$WORK/difference")/255$([ -e "$WORK/traced.leaves" ] &&
+            echo ", lost $(leaves lost) of $(leaves leaves) leaves")")"
 }
 
 [ ${#NAMES[@]} -gt 0 ] || mapfile -t NAMES < <(names)
 for name in "${NAMES[@]}"; do
     [ -n "$(row "$name" 1)" ] || { echo "clients.txt has no '$name'" >&2; exit 2; }
 done
-GRABBER=$(ls "$BUILD"/lib/libframeGrabber.so 2>/dev/null) || { echo "no frameGrabber in $BUILD" >&2; exit 2; }
+GRABBER=$BUILD/lib/libframeGrabber.so
+CHECKER=$BUILD/lib/libleafChecker.so
+[ -e "$GRABBER" ] && [ -e "$CHECKER" ] || { echo "no frameGrabber or leafChecker in $BUILD" >&2; exit 2; }
 for need in Xvfb "$BUILD/bin/clientModels" "$BUILD/bin/osgraytrace-run"; do
     command -v "$need" >/dev/null || { echo "no $need" >&2; exit 77; }
 done

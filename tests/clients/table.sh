@@ -30,6 +30,8 @@ table_row()
         printf '<br>exit %s, %s<br>frames %s, %s<br>ms %s, %s<br>difference %s of %s' \
             "$(cat "$WORK/plain.exit")" "$(cat "$WORK/traced.exit")" "$(value plain frames)" "$(value traced frames)" \
             "$(value plain milliseconds)" "$(value traced milliseconds)" "$(cat "$WORK/difference")" "$(row "$1" 3)"
+        [ ! -e "$WORK/traced.leaves" ] || printf '<br>leaves %s: traced %s, OSG draws %s, empty %s, other passes %s, lost %s' \
+            "$(leaves leaves)" "$(leaves traced)" "$(leaves drawn)" "$(leaves empty)" "$(leaves other-passes)" "$(leaves lost)"
     fi
     printf '<br><i>%s</i></td><td>' "$(row "$1" 4 | escape)"
     pictures "$1"

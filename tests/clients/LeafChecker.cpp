@@ -1,0 +1,347 @@
+// LeafChecker.cpp - preloaded with osgraytrace-run, this library names the drawables of a scene
+// that are neither traced nor drawn by OSG. Layer: tests.
+// SPDX-License-Identifier: MIT
+//
+// In the frame OSGRAYTRACE_TEST_FRAMES - 1, a clone of the view's cull visitor runs over the
+// children of each RayTracedScene as if there were no ray tracing. Each leaf of its render stages
+// must be among the leaves of what OSG draws beside the traced picture, or be a use of a geometry
+// that is traced. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
+#include "osgRayTrace/bridge/common/SceneRoot.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+
+#include <osgRayTrace/RayTracedScene>
+
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+
+namespace
+{
+
+struct Leaf
+{
+    osg::ref_ptr<const osg::Drawable> drawable;
+    osg::Matrixd modelView;
+    bool ownStage = false; ///< whether a camera below the view draws the leaf
+};
+
+using Leaves = std::vector<Leaf>;
+using Places = std::map<const osg::Drawable*, std::vector<osg::Matrixd>>;
+
+void addLeaves(osgUtil::RenderBin& bin, bool ownStage, Leaves& leaves)
+{
+    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
+        for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : graph->_leaves)
+            if (leaf->getDrawable())
+                leaves.push_back({leaf->getDrawable(),
+                                  leaf->_modelview ? *leaf->_modelview : osg::Matrixd(), ownStage});
+    for (const auto& [number, inner] : bin.getRenderBinList())
+        addLeaves(*inner, ownStage, leaves);
+}
+
+void addStages(osgUtil::RenderStage& stage, bool own, Leaves& leaves)
+{
+    addLeaves(stage, own, leaves);
+    for (const auto* list : {&stage.getPreRenderList(), &stage.getPostRenderList()})
+        for (const auto& [number, inner] : *list)
+            addStages(*inner, true, leaves);
+}
+
+/// Returns the leaves of a cull traversal of the visitor's pass without culling.
+Leaves leavesOf(const CullPass& pass, const ViewingConditions& conditions,
+                const std::function<void(osgUtil::CullVisitor&)>& traverse)
+{
+    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
+    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
+    const osg::ref_ptr<osg::Viewport> viewport =
+        new osg::Viewport(0, 0, conditions.view->width, conditions.view->height);
+    osg::ref_ptr<osg::Camera> camera;
+    pass.camera.lock(camera);
+    stage->setViewport(viewport.get());
+    stage->setCamera(camera.get());
+    stage->setInitialViewMatrix(new osg::RefMatrix(conditions.view->viewFromWorld));
+
+    osgUtil::CullVisitor& visitor = *pass.visitor;
+    visitor.reset();
+    visitor.getNodePath().clear();
+    visitor.setFrameStamp(pass.frameStamp.get());
+    visitor.setTraversalNumber(pass.frameStamp->getFrameNumber());
+    visitor.setTraversalMask(conditions.traversalMask);
+    visitor.setInheritanceMask(0);
+    visitor.setCullingMode(osg::CullSettings::NO_CULLING);
+    visitor.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    visitor.setLODScale(conditions.view->lodScale);
+    visitor.setDatabaseRequestHandler(nullptr);
+    osg::RenderInfo renderInfo = pass.original->getRenderInfo();
+    visitor.setRenderInfo(renderInfo);
+    visitor.setStateGraph(graph.get());
+    visitor.setRenderStage(stage.get());
+    visitor.pushViewport(viewport.get());
+    visitor.pushProjectionMatrix(new osg::RefMatrix(conditions.view->projection));
+    visitor.pushModelViewMatrix(new osg::RefMatrix(conditions.view->viewFromWorld),
+                                osg::Transform::ABSOLUTE_RF);
+    traverse(visitor);
+    Leaves leaves;
+    addStages(*stage, false, leaves);
+    return leaves;
+}
+
+ConversionInput inputOf(const ViewingConditions& conditions, osg::Node& root)
+{
+    ConversionInput input;
+    input.root = &root;
+    input.eye = conditions.eye;
+    input.view = conditions.view;
+    input.pass = conditions.pass;
+    input.traversalMask = conditions.traversalMask;
+    input.viewLight = conditions.light;
+    input.viewLightInEyeSpace = conditions.lightInEyeSpace;
+    input.inheritedState = conditions.inheritedState;
+    input.rasterizesRest = true;
+    input.picks = true;
+    return input;
+}
+
+bool close(const osg::Matrixd& a, const osg::Matrixd& b)
+{
+    double size = 1.0, difference = 0.0;
+    for (int i = 0; i < 16; ++i)
+    {
+        size = std::max(size, std::abs(a.ptr()[i]));
+        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
+    }
+    return difference <= 1e-5 * size;
+}
+
+template <class Key>
+bool holds(const std::map<Key, std::vector<osg::Matrixd>>& places, const Key& key,
+           const osg::Matrixd& place)
+{
+    const auto found = places.find(key);
+    return found != places.end() &&
+           std::any_of(found->second.begin(), found->second.end(),
+                       [&](const osg::Matrixd& other) { return close(other, place); });
+}
+
+/// Returns the primitive sets of a drawable that are not traced, or nothing for what is no
+/// geometry.
+std::set<const osg::PrimitiveSet*> setsWithoutTriangles(const osg::Drawable& drawable)
+{
+    std::set<const osg::PrimitiveSet*> sets;
+    const osg::Geometry* geometry = drawable.asGeometry();
+    for (unsigned int i = 0; geometry && i < geometry->getNumPrimitiveSets(); ++i)
+    {
+        const osg::PrimitiveSet* set = geometry->getPrimitiveSet(i);
+        if (set->getNumIndices() > 0 && !hasTriangles(*set)) sets.insert(set);
+    }
+    return sets;
+}
+
+/// Returns whether a drawable is of no node: each cull traversal may have another one.
+bool isMadeInCull(const osg::Drawable& drawable)
+{
+    return drawable.getNumParents() == 0;
+}
+
+bool isEmpty(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry) return false;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry->getPrimitiveSetList())
+        if (set && set->getNumIndices() > 0) return false;
+    return true;
+}
+
+std::string nameOf(const osg::Node& node)
+{
+    std::string name = node.getName().empty() ? node.className() : node.getName();
+    return node.getNumParents() > 0 ? nameOf(*node.getParent(0)) + '/' + name : name;
+}
+
+/// What becomes of the leaves of a scene.
+struct Tally
+{
+    std::size_t leaves = 0, traced = 0, drawn = 0, empty = 0, otherPasses = 0;
+    std::vector<std::string> lost;
+};
+
+struct Found
+{
+    Places traced; ///< places of what is traced, by drawable
+    Places drawn;  ///< places of what OSG draws
+    std::map<const osg::PrimitiveSet*, std::vector<osg::Matrixd>> drawnSets;
+    std::map<std::string, std::vector<osg::Matrixd>> madeInCull; ///< of drawn leaves, by class
+};
+
+Found find(const CollectedGraph& graph, const Leaves& drawn, const osg::Matrixd& viewFromScene)
+{
+    Found found;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+        {
+            if (use.proxy) continue;
+            const osg::Drawable* drawable = geometry.geometry.get();
+            if (use.path != NodeTree::kNone)
+                if (const osg::Drawable* own = graph.paths.node(use.path).asDrawable())
+                    drawable = own; // the use of a posed figure is a copy
+            found.traced[drawable].push_back(use.engineFromLocal * viewFromScene);
+        }
+    for (const Leaf& leaf : drawn)
+    {
+        found.drawn[leaf.drawable.get()].push_back(leaf.modelView);
+        if (isMadeInCull(*leaf.drawable))
+            found.madeInCull[leaf.drawable->className()].push_back(leaf.modelView);
+        if (const osg::Geometry* geometry = leaf.drawable->asGeometry())
+            for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry->getPrimitiveSetList())
+                found.drawnSets[set.get()].push_back(leaf.modelView);
+    }
+    return found;
+}
+
+/// Returns whether OSG draws these sets of a leaf, if only in a copy of the drawable.
+bool drawsSets(const Found& found, const std::set<const osg::PrimitiveSet*>& sets,
+               const osg::Matrixd& place)
+{
+    return std::all_of(sets.begin(), sets.end(),
+                       [&](const osg::PrimitiveSet* set)
+                       { return holds(found.drawnSets, set, place); });
+}
+
+void judge(const Leaf& leaf, const Found& found, Tally& tally)
+{
+    ++tally.leaves;
+    const osg::Drawable& drawable = *leaf.drawable;
+    if (holds(found.drawn, leaf.drawable.get(), leaf.modelView) ||
+        (isMadeInCull(drawable) &&
+         holds(found.madeInCull, std::string(drawable.className()), leaf.modelView)))
+    {
+        ++tally.drawn;
+        return;
+    }
+    if (isEmpty(drawable))
+    {
+        ++tally.empty;
+        return;
+    }
+    if (leaf.ownStage && (found.traced.count(&drawable) || found.drawn.count(&drawable)))
+    {
+        ++tally.otherPasses; // as of shadow maps
+        return;
+    }
+    const std::set<const osg::PrimitiveSet*> rest = setsWithoutTriangles(drawable);
+    const std::size_t sets =
+        drawable.asGeometry() ? drawable.asGeometry()->getNumPrimitiveSets() : 0;
+    const bool allRest = sets > 0 && rest.size() == sets;
+    if ((allRest || holds(found.traced, leaf.drawable.get(), leaf.modelView)) &&
+        drawsSets(found, rest, leaf.modelView))
+    {
+        ++tally.traced;
+        return;
+    }
+    tally.lost.push_back(std::string(leaf.ownStage ? "in a camera of its own: " : "") +
+                         drawable.libraryName() + "::" + drawable.className() + " " +
+                         nameOf(drawable));
+}
+
+void write(const Tally& tally)
+{
+    const char* pictures = std::getenv("OSGRAYTRACE_TEST_PICTURES");
+    std::ofstream file(std::string(pictures ? pictures : "picture") + ".leaves", std::ios::app);
+    file << "leaves " << tally.leaves << "\ntraced " << tally.traced << "\ndrawn " << tally.drawn
+         << "\nempty " << tally.empty << "\nother-passes " << tally.otherPasses << "\nlost "
+         << tally.lost.size() << '\n';
+    for (const std::string& name : tally.lost)
+        file << "lost-leaf " << name << '\n';
+}
+
+void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor)
+{
+    ViewingConditions conditions = viewingConditions(visitor);
+    if (!conditions.view || !visitor.getFrameStamp()) return;
+    conditions.pass = cullPass(visitor, nullptr);
+    if (!conditions.pass->isClone) return;
+
+    const osg::ref_ptr<SceneRoot> root = new SceneRoot(&scene);
+    SoftwareVertices vertices;
+    DrawableTriangles triangles;
+    const TextureConverter textures;
+    RuleCaches rules;
+    ConversionReport report;
+    const ConversionInput input = inputOf(conditions, *root);
+    GraphCollector collector(input, vertices, triangles, textures, rules, report);
+    root->accept(collector);
+    const CollectedGraph graph = collector.take();
+
+    const auto begin = [&](osgUtil::CullVisitor& clone)
+    {
+        clone.pushOntoNodePath(&scene);
+        if (scene.getStateSet()) clone.pushStateSet(scene.getStateSet());
+    };
+    const Leaves plain = leavesOf(*conditions.pass, conditions,
+                                  [&](osgUtil::CullVisitor& clone)
+                                  {
+                                      begin(clone);
+                                      for (unsigned int i = 0; i < scene.getNumChildren(); ++i)
+                                          scene.getChild(i)->accept(clone);
+                                  });
+    const Leaves drawn = leavesOf(*conditions.pass, conditions,
+                                  [&](osgUtil::CullVisitor& clone)
+                                  {
+                                      begin(clone);
+                                      cullParts(graph.rasterized, clone);
+                                  });
+    const Found found = find(graph, drawn, conditions.view->viewFromWorld);
+    Tally tally;
+    for (const Leaf& leaf : plain)
+        judge(leaf, found, tally);
+    write(tally);
+    root->detach();
+}
+
+unsigned int frameToCheck()
+{
+    const char* frames = std::getenv("OSGRAYTRACE_TEST_FRAMES");
+    return unsigned(std::max(2, frames ? std::atoi(frames) : 30)) - 1;
+}
+
+/// Returns true once for each scene, in the frame to check or in the first one behind it.
+bool isDue(const RayTracedScene& scene, const osgUtil::CullVisitor& visitor)
+{
+    static std::mutex mutex;
+    static auto* checked = new std::set<const RayTracedScene*>; // outlives the program's threads
+    const bool late =
+        visitor.getFrameStamp() && visitor.getFrameStamp()->getFrameNumber() >= frameToCheck();
+    const std::lock_guard<std::mutex> lock(mutex);
+    return late && scene.getEnabled() && checked->insert(&scene).second;
+}
+
+} // namespace
+
+__attribute__((visibility("default"))) void
+osgRayTrace::RayTracedScene::traverse(osg::NodeVisitor& visitor)
+{
+    using Traverse = void (*)(RayTracedScene*, osg::NodeVisitor&);
+    static const auto traverse = reinterpret_cast<Traverse>(
+        dlsym(RTLD_NEXT, "_ZN11osgRayTrace14RayTracedScene8traverseERN3osg11NodeVisitorE"));
+    if (osgUtil::CullVisitor* cull = visitor.asCullVisitor())
+        if (isDue(*this, *cull)) check(*this, *cull);
+    traverse(this, visitor);
+}
