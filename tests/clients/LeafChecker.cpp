@@ -13,6 +13,7 @@
 
 #include <osgRayTrace/RayTracedScene>
 
+#include <osg/ColorMask>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
@@ -46,11 +47,25 @@ struct Leaf
 using Leaves = std::vector<Leaf>;
 using Places = std::map<const osg::Drawable*, std::vector<osg::Matrixd>>;
 
+/// Returns whether a state keeps every colour out of the picture, as of tests for occlusion.
+bool isInvisible(const osgUtil::StateGraph* graph)
+{
+    for (; graph; graph = graph->_parent)
+    {
+        const osg::StateSet* states = graph->getStateSet();
+        const auto* mask = states ? dynamic_cast<const osg::ColorMask*>(
+                                        states->getAttribute(osg::StateAttribute::COLORMASK))
+                                  : nullptr;
+        if (mask) return !mask->getRedMask() && !mask->getGreenMask() && !mask->getBlueMask();
+    }
+    return false;
+}
+
 void addLeaves(osgUtil::RenderBin& bin, bool ownStage, Leaves& leaves)
 {
     for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
         for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : graph->_leaves)
-            if (leaf->getDrawable())
+            if (leaf->getDrawable() && !isInvisible(graph))
                 leaves.push_back({leaf->getDrawable(),
                                   leaf->_modelview ? *leaf->_modelview : osg::Matrixd(), ownStage});
     for (const auto& [number, inner] : bin.getRenderBinList())
@@ -188,7 +203,7 @@ struct Found
     Places traced; ///< places of what is traced, by drawable
     Places drawn;  ///< places of what OSG draws
     std::map<const osg::PrimitiveSet*, std::vector<osg::Matrixd>> drawnSets;
-    std::map<std::string, std::vector<osg::Matrixd>> madeInCull; ///< of drawn leaves, by class
+    std::map<std::string, std::vector<osg::Matrixd>> madeInCull; ///< by class
 };
 
 Found find(const CollectedGraph& graph, const Leaves& drawn, const osg::Matrixd& viewFromScene)
@@ -199,6 +214,9 @@ Found find(const CollectedGraph& graph, const Leaves& drawn, const osg::Matrixd&
         {
             if (use.proxy) continue;
             const osg::Drawable* drawable = geometry.geometry.get();
+            if (isMadeInCull(*drawable))
+                found.madeInCull[drawable->className()].push_back(use.engineFromLocal *
+                                                                  viewFromScene);
             if (use.path != NodeTree::kNone)
                 if (const osg::Drawable* own = graph.paths.node(use.path).asDrawable())
                     drawable = own; // the use of a posed figure is a copy
@@ -229,9 +247,10 @@ void judge(const Leaf& leaf, const Found& found, Tally& tally)
 {
     ++tally.leaves;
     const osg::Drawable& drawable = *leaf.drawable;
-    if (holds(found.drawn, leaf.drawable.get(), leaf.modelView) ||
-        (isMadeInCull(drawable) &&
-         holds(found.madeInCull, std::string(drawable.className()), leaf.modelView)))
+    const bool drawnAlike =
+        isMadeInCull(drawable) &&
+        holds(found.madeInCull, std::string(drawable.className()), leaf.modelView);
+    if (drawnAlike || holds(found.drawn, leaf.drawable.get(), leaf.modelView))
     {
         ++tally.drawn;
         return;

@@ -4,6 +4,7 @@
 
 #include <osg/GLExtensions>
 #include <osg/Geode>
+#include <osg/Light>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/State>
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <vector>
 
 /// The namespace is not osgRayTrace, as the classes stand for those of an application.
 namespace application
@@ -136,6 +138,138 @@ public:
         state.get<osg::GLExtensions>()->glUseProgram(0);
         state.setLastAppliedProgramObject(nullptr);
     }
+};
+
+/// Draws one of two geometries, which take turns from frame to frame and are written in cull, like
+/// OpenMW's rigs.
+class RigDrawable : public osg::Drawable
+{
+public:
+    explicit RigDrawable(const osg::Geometry& source)
+    {
+        for (osg::ref_ptr<osg::Geometry>& pose : _poses)
+            pose = new osg::Geometry(source, osg::CopyOp::DEEP_COPY_ARRAYS);
+        _rest = new osg::Vec3Array(static_cast<const osg::Vec3Array&>(*source.getVertexArray()));
+        setCullingActive(false);
+    }
+
+    using osg::Drawable::accept;
+    void accept(osg::NodeVisitor& visitor) override
+    {
+        if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR)
+            return osg::Drawable::accept(visitor);
+        if (!visitor.validNodeMask(*this) || hidden) return;
+        visitor.pushOntoNodePath(this);
+        if (visitor.getTraversalNumber() != _frame) pose(visitor.getTraversalNumber());
+        visitor.pushOntoNodePath(&chosen());
+        visitor.apply(chosen());
+        visitor.popFromNodePath();
+        visitor.popFromNodePath();
+    }
+    osg::BoundingBox computeBoundingBox() const override { return {-3, -3, -3, 3, 3, 3}; }
+    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
+    void accept(osg::PrimitiveFunctor& functor) const override { chosen().accept(functor); }
+    osg::Geometry& chosen() const { return *_poses[_frame % 2]; }
+
+    osg::Vec3 shift; ///< pose: moves all vertices
+    bool hidden = false;
+
+private:
+    void pose(unsigned int frame)
+    {
+        _frame = frame;
+        auto& vertices = static_cast<osg::Vec3Array&>(*chosen().getVertexArray());
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            vertices[i] = (*_rest)[i] + shift;
+        vertices.dirty();
+        chosen().dirtyBound();
+    }
+
+    std::array<osg::ref_ptr<osg::Geometry>, 2> _poses;
+    osg::ref_ptr<osg::Vec3Array> _rest;
+    unsigned int _frame = 0;
+};
+
+/// Holds the lights of the frame, which nodes of the application add in update traversals.
+class LightManager : public osg::Group
+{
+public:
+    std::vector<osg::ref_ptr<osg::Light>> lights; ///< in world space
+    unsigned int frame = 0;
+};
+
+/// Adds its light to a manager in each frame.
+class ManagedLight : public osg::NodeCallback
+{
+public:
+    ManagedLight(LightManager& manager, osg::Light& light) : _manager(manager), _light(&light) {}
+
+    void operator()(osg::Node*, osg::NodeVisitor* visitor) override
+    {
+        if (_manager.frame != visitor->getTraversalNumber()) _manager.lights.clear();
+        _manager.frame = visitor->getTraversalNumber();
+        _manager.lights.push_back(_light);
+    }
+
+private:
+    LightManager& _manager;
+    osg::ref_ptr<osg::Light> _light;
+};
+
+/// Applies several lights, given in world space.
+class LightsAttribute : public osg::StateAttribute
+{
+public:
+    LightsAttribute() = default;
+    LightsAttribute(const LightsAttribute& other, const osg::CopyOp& copyop)
+        : osg::StateAttribute(other, copyop), lights(other.lights)
+    {
+    }
+    META_StateAttribute(application, LightsAttribute, LIGHT);
+    unsigned int getMember() const override { return 1; }
+    bool getModeUsage(ModeUsage& usage) const override
+    {
+        for (std::size_t i = 0; i < lights.size(); ++i)
+            usage.usesMode(GLMode(GL_LIGHT1 + i));
+        return true;
+    }
+    int compare(const osg::StateAttribute& other) const override
+    {
+        COMPARE_StateAttribute_Types(LightsAttribute, other);
+        return lights == rhs.lights ? 0 : lights < rhs.lights ? -1 : 1;
+    }
+    void apply(osg::State& state) const override
+    {
+        const osg::Matrix modelView = state.getModelViewMatrix();
+        state.applyModelViewMatrix(state.getInitialViewMatrix());
+        for (const osg::ref_ptr<osg::Light>& light : lights)
+            light->apply(state);
+        state.applyModelViewMatrix(modelView);
+    }
+
+    std::vector<osg::ref_ptr<osg::Light>> lights;
+};
+
+/// Lights what is below it by the lights of a manager, in cull alone, like OpenMW's callback.
+class LightListCallback : public osg::NodeCallback
+{
+public:
+    explicit LightListCallback(LightManager& manager) : _manager(manager) {}
+
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
+    {
+        osgUtil::CullVisitor* cull = visitor->asCullVisitor();
+        osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+        osg::ref_ptr<LightsAttribute> attribute = new LightsAttribute;
+        attribute->lights = _manager.lights;
+        state->setAttributeAndModes(attribute.get());
+        if (cull) cull->pushStateSet(state.get());
+        traverse(node, visitor);
+        if (cull) cull->popStateSet();
+    }
+
+private:
+    LightManager& _manager;
 };
 
 struct CountedDraws : osg::Drawable::DrawCallback

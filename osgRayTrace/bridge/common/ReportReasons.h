@@ -86,6 +86,7 @@ constexpr ReportReason kReportReasons[] = {
     {"not-traced.indirect-draw", "indirect draws"},
     {"not-traced.light-points", "osgSim's light points"},
     {"not-traced.lines", "primitive sets of lines"},
+    {"not-traced.mouse-handle", "drawables that osgManipulator hides from all views"},
     {"not-traced.no-vertices", "drawables without vertices"},
     {"not-traced.particles", "osgParticle's drawables, rain and snow"},
     {"not-traced.patches", "primitive sets of patches"},

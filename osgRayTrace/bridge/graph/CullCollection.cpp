@@ -39,6 +39,16 @@ bool sameLeaf(const CapturedLeaf& a, const CapturedLeaf& b, double eyeDistance)
     return a.drawable == b.drawable && sameMatrix(a.worldFromLocal, b.worldFromLocal, eyeDistance);
 }
 
+/// Returns whether state sets are equal, with all that is not followed. A callback may make new
+/// ones in each traversal.
+bool sameStateSets(const std::vector<osg::ref_ptr<const osg::StateSet>>& a,
+                   const std::vector<osg::ref_ptr<const osg::StateSet>>& b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const auto& one, const auto& other)
+                      { return one == other || one->compare(*other, true) == 0; });
+}
+
 uint64_t signatureOf(const std::vector<CapturedLeaf>& leaves)
 {
     Hasher hasher;
@@ -126,7 +136,7 @@ bool GraphCollector::finds(const std::vector<CapturedLeaf>& walked,
     const auto isSame = [this](const CapturedLeaf& a, const CapturedLeaf& b)
     {
         if (!sameLeaf(a, b, _input.eye.length())) return false;
-        if (a.states == b.states) return true;
+        if (sameStateSets(a.states, b.states)) return true;
         // What OSG draws may need uniforms, which are not followed.
         return !leftReason(b) && sameState(stateOf(a), stateOf(b));
     };
@@ -158,6 +168,11 @@ CullOutcome GraphCollector::cullOutcome()
     if (!outcome.error.empty()) return outcome;
     outcome.captured = culled.leaves.size();
     outcome.signature = signatureOf(culled.leaves);
+    if (const osg::Drawable* drawable = outcome.path.back()->asDrawable())
+    {
+        outcome.kind = takesChosen(*drawable, culled, outcome);
+        return outcome;
+    }
     // A transform may ask the cull visitor for its eye, as those of skies do.
     const osg::Transform* transform = outcome.path.back()->asTransform();
     const osg::Matrixd& outer = _worldFromLocal.back();
@@ -181,6 +196,26 @@ CullOutcome GraphCollector::cullOutcome()
             outcome.traced.push_back(std::move(leaf));
     }
     return outcome;
+}
+
+/// Decides what becomes of a drawable that may draw others in its place, as rigs of applications
+/// do. Left: it draws itself. Plain: it draws others, or nothing, and they cannot be traced. In
+/// both cases OSG draws it like any drawable that is not known.
+CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
+                                              const CapturedContent& culled, CullOutcome& outcome)
+{
+    for (const CapturedLeaf& leaf : culled.leaves)
+        if (leaf.drawable == &drawable) return CullOutcome::Left;
+    if (culled.leaves.empty() || culled.otherStages) return CullOutcome::Plain;
+    for (const CapturedLeaf& leaf : culled.leaves)
+        if (leftReason(leaf)) return CullOutcome::Plain;
+    for (std::size_t i = 0; i < culled.leaves.size(); ++i)
+    {
+        CapturedLeaf leaf = culled.leaves[i];
+        leaf.drawable = &_triangles.chosen(drawable, i, *leaf.drawable->asGeometry());
+        outcome.traced.push_back(std::move(leaf));
+    }
+    return CullOutcome::Captured;
 }
 
 std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path)
@@ -239,6 +274,21 @@ bool GraphCollector::collectsInCull(osg::Node& node)
     const bool collected = outcome.kind != CullOutcome::Plain;
     if (collected) collectCulled(node, outcome, reason);
     _graph.cullOutcomes.push_back(std::move(outcome));
+    return collected;
+}
+
+/// Returns true if a drawable of the application's was collected by what it chooses in cull.
+bool GraphCollector::collectsChosen(osg::Drawable& drawable)
+{
+    if (!_input.rasterizesRest || !_input.pass || !_input.view || _isLeft || _leftToOsg > 0 ||
+        leavesToOsg(hintOf(getNodePath())))
+        return false;
+    const char* reason = cullReason(drawable);
+    if (!reason) return false;
+    CullOutcome outcome = cullOutcome();
+    const bool collected = outcome.kind == CullOutcome::Captured;
+    if (collected) collectCulled(drawable, outcome, reason);
+    if (outcome.kind != CullOutcome::Left) _graph.cullOutcomes.push_back(std::move(outcome));
     return collected;
 }
 

@@ -1,8 +1,10 @@
-// DrawableTriangles.cpp - reads drawables by osg::PrimitiveFunctor. Layer: bridge.
+// DrawableTriangles.cpp - reads drawables by osg::PrimitiveFunctor, and copies what they choose.
+// Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 
 #include "osgRayTrace/bridge/common/MemoryHash.h"
+#include "osgRayTrace/bridge/geometry/BufferHashes.h"
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 #include "osgRayTrace/scene/Mesh.h"
 
@@ -106,6 +108,51 @@ Reader readerOf(const osg::Drawable& drawable)
     return reader;
 }
 
+uint64_t valuesHash(const osg::Geometry& geometry)
+{
+    uint64_t hash = bitsOf(geometry.getStateSet());
+    forEachBuffer(geometry, [&hash](const osg::BufferData* data, bool)
+                  { hash = fold(hash, data ? contentsHash(*data) : 0); });
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
+        hash = fold(hash, set ? rangesHash(*set) : 0);
+    return hash;
+}
+
+osg::ref_ptr<osg::Array> copyOf(const osg::Array* array)
+{
+    return array ? osg::clone(array, osg::CopyOp::DEEP_COPY_ALL) : nullptr;
+}
+
+osg::Geometry::ArrayList copyOf(const osg::Geometry::ArrayList& arrays)
+{
+    osg::Geometry::ArrayList copies;
+    for (const osg::ref_ptr<osg::Array>& array : arrays)
+        copies.push_back(copyOf(array.get()));
+    return copies;
+}
+
+osg::Geometry::PrimitiveSetList copyOf(const osg::Geometry::PrimitiveSetList& sets)
+{
+    osg::Geometry::PrimitiveSetList copies;
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : sets)
+        copies.push_back(set ? osg::clone(set.get(), osg::CopyOp::DEEP_COPY_ALL) : nullptr);
+    return copies;
+}
+
+/// Gives the copy the values of a geometry, in arrays of its own.
+void setValues(osg::Geometry& copy, const osg::Geometry& geometry)
+{
+    copy.setName(geometry.getName());
+    copy.setStateSet(const_cast<osg::StateSet*>(geometry.getStateSet()));
+    copy.setVertexArray(copyOf(geometry.getVertexArray()).get());
+    copy.setNormalArray(copyOf(geometry.getNormalArray()).get());
+    copy.setColorArray(copyOf(geometry.getColorArray()).get());
+    copy.setTexCoordArrayList(copyOf(geometry.getTexCoordArrayList()));
+    copy.setVertexAttribArrayList(copyOf(geometry.getVertexAttribArrayList()));
+    copy.setPrimitiveSetList(copyOf(geometry.getPrimitiveSetList()));
+    copy.dirtyBound();
+}
+
 } // namespace
 
 const osg::Geometry* DrawableTriangles::of(const osg::Drawable& drawable)
@@ -127,10 +174,31 @@ const osg::Geometry* DrawableTriangles::of(const osg::Drawable& drawable)
     return copy.triangles.get();
 }
 
+osg::Geometry& DrawableTriangles::chosen(const osg::Drawable& drawable, std::size_t number,
+                                         const osg::Geometry& geometry)
+{
+    Copy& copy = _chosen[{&drawable, number}];
+    copy.drawable = &drawable;
+    copy.used = _round;
+    const uint64_t hash = valuesHash(geometry);
+    if (!copy.triangles || copy.hash != hash)
+    {
+        if (!copy.triangles) copy.triangles = new osg::Geometry;
+        setValues(*copy.triangles, geometry);
+    }
+    copy.hash = hash;
+    return *copy.triangles;
+}
+
 void DrawableTriangles::end()
 {
-    for (auto copy = _copies.begin(); copy != _copies.end();)
-        copy = copy->second.used == _round ? std::next(copy) : _copies.erase(copy);
+    const auto forget = [this](auto& copies)
+    {
+        for (auto copy = copies.begin(); copy != copies.end();)
+            copy = copy->second.used == _round ? std::next(copy) : copies.erase(copy);
+    };
+    forget(_copies);
+    forget(_chosen);
 }
 
 uint64_t DrawableTriangles::hashOf(const osg::Drawable& drawable)

@@ -1,19 +1,22 @@
-// DrawableTriangles.h - the triangles of drawables that are no osg::Geometry. Layer: bridge.
+// DrawableTriangles.h - the triangles of drawables that are no osg::Geometry, as geometries. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Drawable>
 #include <osg/Geometry>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
 
-/// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor. Each conversion
-/// asks the drawables again; a geometry stays the same object with the same arrays while its
-/// triangles do.
+/// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor, and copies of the
+/// geometries that drawables choose in cull. Each conversion asks the drawables again; a geometry
+/// stays the same object, with the same arrays while its values do.
 class DrawableTriangles
 {
 public:
@@ -21,6 +24,12 @@ public:
 
     /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
     const osg::Geometry* of(const osg::Drawable& drawable);
+
+    /// Returns a copy of the number-th geometry that the drawable has chosen in a cull traversal. It
+    /// is the same object whichever geometry is chosen: rigs of applications take turns with two.
+    /// Of the arrays it has copies, as the application writes to its own while others are traced.
+    osg::Geometry& chosen(const osg::Drawable& drawable, std::size_t number,
+                          const osg::Geometry& geometry);
 
     /// Forgets the drawables that were not asked for.
     void end();
@@ -39,6 +48,7 @@ private:
     };
 
     std::map<const osg::Drawable*, Copy> _copies;
+    std::map<std::pair<const osg::Drawable*, std::size_t>, Copy> _chosen; ///< by number, too
     unsigned int _round = 0;
 };
 

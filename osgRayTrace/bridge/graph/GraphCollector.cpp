@@ -229,7 +229,7 @@ void GraphCollector::apply(osg::Billboard& node)
 
 void GraphCollector::apply(osg::Geometry& geometry)
 {
-    if (_lightsOnly || isTooMuch(geometry)) return;
+    if (_lightsOnly || isTooMuch(geometry) || leavesOut(geometry)) return;
     const osg::Geometry& posed = _vertices.posed(geometry, getNodePath());
     const bool isPosed = &posed != &geometry;
     const AssignedState assigned = assignedState(geometry);

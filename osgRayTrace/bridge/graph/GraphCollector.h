@@ -198,6 +198,10 @@ private:
     const char* leftReason(const CapturedLeaf& leaf);
     bool finds(const std::vector<CapturedLeaf>& walked, const std::vector<CapturedLeaf>& culled);
     CullOutcome cullOutcome();
+    CullOutcome::Kind takesChosen(const osg::Drawable& drawable, const CapturedContent& culled,
+                                  CullOutcome& outcome);
+    bool collectsChosen(osg::Drawable& drawable);
+    bool leavesOut(const osg::Drawable& drawable);
     bool collectsInCull(osg::Node& node);
     void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
     static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);

@@ -12,6 +12,7 @@
 #include <osgText/TextBase>
 
 #include <cstring>
+#include <typeinfo>
 
 namespace osgRayTrace::engine
 {
@@ -42,6 +43,13 @@ const char* untracedDrawable(const osg::Drawable& drawable)
     if (isFrom(&drawable, "osgParticle")) return "not-traced.particles";
     if (isFrom(&drawable, "osgRayTrace")) return nullptr;
     return "not-traced.custom-drawable";
+}
+
+bool isForTheMouse(const osg::Drawable& drawable)
+{
+    // The class is in no header; see osgManipulator::setDrawableToAlwaysCull.
+    const osg::Callback* callback = drawable.getCullCallback();
+    return callback && std::strcmp(typeid(*callback).name(), "17ForceCullCallback") == 0;
 }
 
 const char* untracedLeaf(const osg::Node& node)
