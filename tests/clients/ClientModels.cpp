@@ -1,5 +1,5 @@
 // ClientModels.cpp - writes the models that OSG's examples need and its sample data lacks: a paged
-// database, a terrain and a sequence. Layer: tests.
+// database, a terrain, a sequence and a model that OSG is hinted to draw. Layer: tests.
 // SPDX-License-Identifier: MIT
 //
 // Usage: clientModels FOLDER. The models refer to files of OSG's sample data.
@@ -79,6 +79,22 @@ osg::ref_ptr<osgTerrain::Terrain> terrain()
     return terrain;
 }
 
+/// Trucks that OSG is hinted to draw.
+osg::ref_ptr<osg::Group> rasterized()
+{
+    const osg::ref_ptr<osg::Node> truck = osgDB::readRefNodeFile("dumptruck.osgt");
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addDescription("osgRayTrace:rasterize");
+    for (int i = 0; i < 9; ++i)
+    {
+        osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(i % 3 * 30.0, i / 3 * 30.0, 0.0));
+        place->addChild(truck);
+        root->addChild(place);
+    }
+    return root;
+}
+
 osg::ref_ptr<osg::Sequence> sequence()
 {
     osg::ref_ptr<osg::Sequence> sequence = new osg::Sequence;
@@ -98,6 +114,7 @@ int main(int argc, char** argv)
     const std::string folder = std::string(argv[1]) + '/';
     const bool written = osgDB::writeNodeFile(*paged(), folder + "paged.osgt") &&
                          osgDB::writeNodeFile(*terrain(), folder + "terrain.osgt") &&
+                         osgDB::writeNodeFile(*rasterized(), folder + "rasterized.osgt") &&
                          osgDB::writeNodeFile(*sequence(), folder + "sequence.osgt");
     return written ? 0 : 1;
 }

@@ -21,6 +21,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -41,8 +42,8 @@ struct Recording
     std::mutex mutex; ///< guards all but the numbers
     std::map<const void*, int> framesOfViewers;
     std::map<const osg::GraphicsContext*, int> windows; ///< their numbers
-    Clock::time_point middle;                           ///< begin of the second half of the frames
-    std::chrono::duration<double> time{0.0};            ///< of that half
+    Clock::time_point begin;                            ///< of the present frame
+    std::vector<double> milliseconds; ///< of each frame of the second half of the frames
     std::atomic<int> frame{0};
     std::atomic<osg::Timer_t> calls{0};
 };
@@ -77,10 +78,18 @@ template <typename Function> Function original(const char* symbol)
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, symbol));
 }
 
-void writeCounts(int frames, double milliseconds, std::size_t windows)
+double median(std::vector<double> values)
 {
-    std::ofstream(pictures() + ".txt") << "frames " << frames << "\nmilliseconds " << milliseconds
-                                       << "\nwindows " << windows << '\n';
+    if (values.empty()) return 0.0;
+    std::nth_element(values.begin(), values.begin() + long(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+void writeCounts(const Recording& now, int frames)
+{
+    std::ofstream(pictures() + ".txt")
+        << "frames " << frames << "\nmilliseconds " << median(now.milliseconds) << "\nwindows "
+        << now.windows.size() << '\n';
 }
 
 /// Records that a viewer begins a frame; returns whether it has drawn enough of them.
@@ -92,9 +101,12 @@ bool beginFrame(const void* viewer)
     const int half = lastFrame() / 2, end = lastFrame() + kFramesOfOtherThreads;
     if (frame <= now.frame) return now.frame >= end;
     now.frame = frame;
-    if (frame == lastFrame() - half + 1) now.middle = Clock::now();
-    if (frame == lastFrame() + 1) now.time = Clock::now() - now.middle;
-    if (frame == end) writeCounts(lastFrame(), 1e3 * now.time.count() / half, now.windows.size());
+    const Clock::time_point last = now.begin;
+    now.begin = Clock::now();
+    if (frame > half + 1 && frame <= lastFrame() + 1)
+        now.milliseconds.push_back(
+            std::chrono::duration<double, std::milli>(now.begin - last).count());
+    if (frame == end) writeCounts(now, lastFrame());
     return frame >= end;
 }
 
@@ -127,7 +139,7 @@ struct EarlyEnd
     {
         const int frames = recording().frame;
         if (frames > 0 && frames < lastFrame() + kFramesOfOtherThreads)
-            writeCounts(frames, 0.0, recording().windows.size());
+            writeCounts(recording(), frames);
     }
 } earlyEnd;
 

@@ -125,6 +125,7 @@ client()
     command=$(row "$1" 2)
     command=${command//MODELS/$OUT/models}
     command=${command//CLIENTS/$HERE}
+    command=${command//PROGRAMS/$BUILD/bin}
     if [ "$(row "$1" 1)" = skip ]; then
         echo skipped >"$WORK/verdict"
     elif ! command -v ${command%% *} >/dev/null; then

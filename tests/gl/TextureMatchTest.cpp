@@ -248,6 +248,15 @@ TEST_CASE("match: one-dimensional and rectangle textures", "[gl][coverage]")
     rectangle->getStateSet()->setTextureAttributeAndModes(
         0, new osg::TextureRectangle(patchwork(12, GL_RGB)));
     CHECK(matches("texture-rectangle", rectangle));
+
+    const auto scaled = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f));
+    scaled->getStateSet()->setTextureAttributeAndModes(
+        0, new osg::TextureRectangle(patchwork(12, GL_RGB)));
+    osg::ref_ptr<osg::TexMat> matrix = new osg::TexMat;
+    matrix->setScaleByTextureRectangleSize(true);
+    matrix->setMatrix(osg::Matrix::scale(0.5, 0.7, 1.0) * osg::Matrix::translate(3.0, 2.0, 0.0));
+    scaled->getStateSet()->setTextureAttributeAndModes(0, matrix.get());
+    CHECK(matches("texture-rectangle-matrix", scaled));
 }
 
 namespace

@@ -131,15 +131,17 @@ public:
         }
 
         osg::Matrixd after;
-        bool normalized = texture.getTextureTarget() != GL_TEXTURE_RECTANGLE;
-        if (const auto* transform = _state.attribute<osg::TexMat>(_unit, kTextureMatrixSlot))
-        {
-            after = transform->getMatrix();
-            normalized = normalized || transform->getScaleByTextureRectangleSize();
-        }
+        const auto* transform = _state.attribute<osg::TexMat>(_unit, kTextureMatrixSlot);
+        if (transform) after = transform->getMatrix();
         const osg::Image* image = texture.getImage(0);
-        if (!normalized && image && image->s() > 0 && image->t() > 0)
+        if (texture.getTextureTarget() == GL_TEXTURE_RECTANGLE && image && image->s() > 0 &&
+            image->t() > 0)
+        {
+            // OSG scales the coordinates, and so takes the matrix for one of texels.
+            if (transform && transform->getScaleByTextureRectangleSize())
+                after.preMultScale(osg::Vec3d(image->s(), image->t(), 1.0));
             after.postMultScale(osg::Vec3d(1.0 / image->s(), 1.0 / image->t(), 1.0));
+        }
         matrix.postMult(after);
         if (!matrix.valid()) return false;
         mapping.transformed = mapping.partly || !matrix.isIdentity();
