@@ -27,14 +27,28 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
         frameBudget(renderInfo.getCurrentCamera(), *version.settings, agreement);
     budget.frameNumber = pass.frameNumber;
     budget.again = found.shared;
-    view.update({version, pass.view, found.slices, found.shared, budget, paused});
     scene.recordDrawn(renderInfo.getCurrentCamera(),
                       osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
                       nearDistance(state.getProjectionMatrix()));
+    if (!version.seen && budget.seconds > 0.0) return recordNothingSeen(version);
+    view.update({version, pass.view, found.slices, found.shared, budget, paused});
     const bool drawn = view.draw(renderInfo, pass.view);
     recordProgress(found.state, version);
     if (!drawn)
         fail(engine::StatusCode::DeviceFailure, "OpenGL cannot compile the display's shaders");
+}
+
+/// Records that a picture without anything in it is complete: nothing is traced for it, and nothing
+/// drawn.
+void RayTraceDrawable::Implementation::recordNothingSeen(const engine::SceneVersion& version)
+{
+    engine::TraceReport nothing;
+    nothing.scene = version.inputs.scene;
+    nothing.progress.passes = version.inputs.maxPasses;
+    nothing.progress.imageShare = 1.0;
+    nothing.progress.relativeError = 0.0;
+    std::lock_guard<std::mutex> lock(mutex);
+    report = std::move(nothing);
 }
 
 void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<ViewPresenter>& view,

@@ -54,6 +54,7 @@ struct RayTraceDrawable::Implementation
     void draw(osg::RenderInfo& renderInfo);
     void recordProgress(const std::shared_ptr<ViewPresenter>& view,
                         const engine::SceneVersion& version);
+    void recordNothingSeen(const engine::SceneVersion& version);
     void fail(engine::StatusCode code, const char* message) noexcept;
     void failToDraw(engine::StatusCode code, const char* message) noexcept;
 };

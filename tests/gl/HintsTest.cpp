@@ -88,6 +88,30 @@ struct Traced
 
 } // namespace
 
+TEST_CASE("hints: nothing is traced for a view that shows only what OSG draws", "[gl][hint]")
+{
+    const Balls balls; // their shader leaves them to OSG, and they have proxies
+    Traced traced(balls.group.get());
+    RayTraceSettings& settings = *traced.scene->getSettings();
+    const auto statistics = [&] { return traced.scene->getDrawable()->getStatistics(); };
+    settings.setFrameBudget(33.0f);
+    CHECK(traced.show().balls() == "gg");
+    CHECK(traced.count("traced.proxy") == 2);
+    CHECK(statistics().cameraRays == 0);
+    CHECK(statistics().passes == settings.getMaxPasses());
+    CHECK(statistics().ok);
+
+    RayTracedScene::setHint(balls.left.get(), RayTracedScene::TRACE);
+    CHECK(traced.show().balls() == "rg");
+    CHECK(statistics().cameraRays > 0);
+
+    RayTracedScene::setHint(balls.left.get(), RayTracedScene::AUTOMATIC);
+    CHECK(traced.show().balls() == "gg");
+    settings.setFrameBudget(0.0f); // a picture is wanted, however long it takes
+    CHECK(traced.show().balls() == "gg");
+    CHECK(statistics().cameraRays > 0);
+}
+
 TEST_CASE("hints: a node and what is below it, the nearest counts", "[gl]")
 {
     Balls balls;

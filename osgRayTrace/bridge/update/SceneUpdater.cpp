@@ -33,6 +33,19 @@ osg::Vec3d finiteOrZero(const osg::Vec3d& point)
     return std::isfinite(point.length2()) ? point : osg::Vec3d();
 }
 
+/// Returns whether camera rays meet anything of a scene.
+bool isSeen(const Scene& scene)
+{
+    const auto meets = [&scene](const Instance& instance)
+    {
+        return scene.materials[instance.material].culling != FaceCulling::FrontAndBack &&
+               !scene.meshes[instance.mesh]->triangles.empty();
+    };
+    return std::any_of(scene.instances.begin(), scene.instances.end(), meets) ||
+           std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const Light& light) { return light.kind == LightKind::Environment; });
+}
+
 } // namespace
 
 void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* frameStamp,
@@ -328,12 +341,14 @@ void SceneUpdater::publish(std::shared_ptr<const TracedScene> scene,
                            const ConversionResult& conversion, const Statistics& statistics)
 {
     std::shared_ptr<const RasterizedParts> rasterized = conversion.rasterized;
+    const bool seen = isSeen(scene->scene());
     std::lock_guard<std::mutex> lock(_versionMutex);
     // The old scene and parts are freed after the lock, unless a view still draws them.
     _version.inputs.scene.swap(scene);
     _version.rasterized.swap(rasterized);
     _version.pickIndex = conversion.pickIndex;
     _version.paged = conversion.paged;
+    _version.seen = seen;
     _statistics = statistics;
 }
 

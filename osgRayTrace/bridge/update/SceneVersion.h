@@ -28,6 +28,8 @@ struct SceneVersion
     /// Null means that nobody has picked since something came or went.
     std::shared_ptr<const PickIndex> pickIndex;
     bool paged = false; ///< see ConversionResult
+    /// False: camera rays meet nothing, not even an environment. OSG draws all that is seen.
+    bool seen = true;
 };
 
 } // namespace osgRayTrace::engine
