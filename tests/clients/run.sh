@@ -12,6 +12,7 @@ BUILD=$HERE/../../build/release
 OUT=
 JOBS=2       # programs at a time
 SECONDS_EACH=120
+LOG_LINES=12 # of ours at most in the log of a program: a kind of bad data has a line or two, and is counted
 NAMES=()
 while [ $# -gt 0 ]; do
     case $1 in
@@ -105,6 +106,8 @@ judge()
         echo "${tracedFrames:-0} frames instead of ${plainFrames:-0}"
     elif [ -e "$WORK/traced.leaves" ] && [ "$(leaves lost)" != 0 ]; then
         echo "$(leaves lost) of $(leaves leaves) leaves lost"
+    elif [ "$(grep -c '^osgRayTrace:' "$WORK/traced.log")" -gt $LOG_LINES ]; then
+        echo "$(grep -c '^osgRayTrace:' "$WORK/traced.log") lines of ours in its log"
     elif [ -z "$difference" ]; then
         echo "no picture"
     elif [ "${difference%blank}" != "$difference" ] && [ "${2#nothing is seen}" = "$2" ]; then

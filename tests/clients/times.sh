@@ -21,7 +21,7 @@ WORK=$(mktemp -d) || exit 2
 trap 'rm -rf "$WORK"' EXIT
 [ -n "${DISPLAY:-}" ] || { echo "times.sh wants a display: xvfb-run" >&2; exit 77; }
 export OSG_WINDOW="0 0 640 480" OSG_THREADING=SingleThreaded OSG_NOTIFY_LEVEL=FATAL vblank_mode=0
-export OSGRAYTRACE_TEST_FRAMES=300
+export OSGRAYTRACE_TEST_FRAMES=120
 "$BUILD/bin/clientModels" "$WORK" || exit 2
 
 # median prints the median of the numbers that are read.

@@ -14,9 +14,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor, and copies of the
-/// geometries that drawables choose in cull. Each conversion asks the drawables again; a geometry
-/// stays the same object, with the same arrays while its values do.
+/// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor, and copies of
+/// the geometries that drawables choose in cull. Each conversion asks the drawables again; a
+/// geometry stays the same object, with the same arrays while its values do.
 class DrawableTriangles
 {
 public:
@@ -25,9 +25,10 @@ public:
     /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
     const osg::Geometry* of(const osg::Drawable& drawable);
 
-    /// Returns a copy of the number-th geometry that the drawable has chosen in a cull traversal. It
-    /// is the same object whichever geometry is chosen: rigs of applications take turns with two.
-    /// Of the arrays it has copies, as the application writes to its own while others are traced.
+    /// Returns a copy of the number-th geometry that the drawable has chosen in a cull traversal.
+    /// The copy is the same object whichever geometry is chosen, because rigs of applications take
+    /// turns with two. It has arrays of its own, as the application writes to its arrays at any
+    /// time.
     osg::Geometry& chosen(const osg::Drawable& drawable, std::size_t number,
                           const osg::Geometry& geometry);
 

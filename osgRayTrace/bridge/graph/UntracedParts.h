@@ -19,8 +19,8 @@ bool isFrom(const osg::Object* object, const char* library);
 /// Returns why a drawable that is no osg::Geometry is not traced; null: the drawable is our own.
 const char* untracedDrawable(const osg::Drawable& drawable);
 
-/// Returns whether a callback of osgManipulator's hides the drawable from all views: it is there for
-/// the mouse alone.
+/// Returns whether a callback of osgManipulator's hides the drawable from all views: it is there
+/// for the mouse alone.
 bool isForTheMouse(const osg::Drawable& drawable);
 
 /// Returns why a node without children whose class is not of OSG's core is not traced; null: the
