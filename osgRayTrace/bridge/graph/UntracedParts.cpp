@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -30,11 +31,6 @@ bool looksIntoOpenGL(const PhysicalMaterial& material, const TextureConverter& t
 }
 
 } // namespace
-
-bool isFrom(const osg::Object* object, const char* library)
-{
-    return std::strcmp(object->libraryName(), library) == 0;
-}
 
 const char* untracedDrawable(const osg::Drawable& drawable)
 {
