@@ -68,6 +68,7 @@ const char* rasterizedState(const GraphState& state, const TextureConverter& tex
     if (program && program != poses && !replaced) return "rasterized.shader-program";
     if (usesStencil(state)) return "rasterized.stencil";
     if (masksColor(state)) return "rasterized.color-mask";
+    if (hasOneDepth(state)) return "rasterized.depth-range";
     if (state.isOn(kLogicOpBit)) return "rasterized.logic-operation";
     if (state.isOn(kPolygonStippleBit)) return "rasterized.polygon-stipple";
     const auto* material = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);
