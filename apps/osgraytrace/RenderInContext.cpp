@@ -6,6 +6,7 @@
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 
 #include <osgRayTrace/RayTracedScene>
 #include <osgRayTrace/offscreen/FrameCapture>
@@ -16,7 +17,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
 namespace osgRayTrace::app
@@ -66,7 +66,7 @@ public:
 
     void apply(osg::Node& node) override
     {
-        found = found || std::strcmp(node.libraryName(), "osgParticle") == 0;
+        found = found || engine::isFrom(&node, "osgParticle");
         if (!found) traverse(node);
     }
 

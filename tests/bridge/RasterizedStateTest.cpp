@@ -1,10 +1,11 @@
 // RasterizedStateTest.cpp - state that leaves its geometry to OpenGL: textures that only OpenGL
-// has, programs, stencils and colour masks.
+// has, programs, stencils, colour masks, depth ranges.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/bridge/TexturedGraphs.h"
 
 #include <osg/ColorMask>
+#include <osg/Depth>
 #include <osg/FragmentProgram>
 #include <osg/LogicOp>
 #include <osg/PolygonStipple>
@@ -116,7 +117,7 @@ struct OtherProgram : osg::StateAttribute
 
 } // namespace
 
-TEST_CASE("programs of any class, stencils and colour masks leave their geometry to OpenGL",
+TEST_CASE("programs of any class, stencils, masks and the like leave their geometry to OpenGL",
           "[bridge]")
 {
     const auto counted = [](const osg::ref_ptr<osg::Geometry>& geometry, const std::string& what)
@@ -163,6 +164,16 @@ TEST_CASE("programs of any class, stencils and colour masks leave their geometry
         CHECK(counted(geometry, "color-mask") == 1);
         CHECK(countOf(convertGraph(geometry), "approximated.color-mask") == 1);
     }
+    SECTION("a depth range without extent")
+    {
+        const osg::ref_ptr<osg::Depth> depth = new osg::Depth(osg::Depth::LEQUAL, 0.5, 1.0);
+        state.setAttributeAndModes(depth);
+        CHECK(counted(geometry, "depth-range") == 0);
+        depth->setRange(1.0, 1.0);
+        CHECK(counted(geometry, "depth-range") == 1);
+        CHECK(countOf(convertForViewer(geometry), "traced.proxy") == 0);
+        CHECK(countOf(convertGraph(geometry), "approximated.depth-range") == 1);
+    }
     SECTION("logic operations and stipples")
     {
         CHECK(counted(geometry, "logic-operation") == 0);
@@ -179,6 +190,7 @@ TEST_CASE("programs of any class, stencils and colour masks leave their geometry
         const osg::ref_ptr<osg::StateSet> above = new osg::StateSet;
         above->setAttributeAndModes(new osg::Stencil, kOn | osg::StateAttribute::OVERRIDE);
         above->setAttribute(new osg::ColorMask(true, false, false, true));
+        above->setAttribute(new osg::Depth(osg::Depth::ALWAYS, 1.0, 1.0));
         ConversionInput input = inputFor(geometry);
         input.rasterizesRest = true;
         input.inheritedState = {above};

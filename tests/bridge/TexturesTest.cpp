@@ -5,9 +5,13 @@
 
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexEnvCombine>
+#include <osg/Texture2DArray>
+#include <osg/Texture2DMultisample>
 #include <osg/Texture3D>
+#include <osg/TextureBuffer>
 #include <osg/TextureCubeMap>
 
 using namespace osgRayTrace;
@@ -112,6 +116,39 @@ TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]"
         CHECK(countOf(result, "approximated.pixel-format") == 1);
         REQUIRE(soleMaterial(result).baseColorTexture == 0);
         CHECK(result.scene->textures[0]->bytes == Bytes{255, 0, 255, 255});
+    }
+}
+
+TEST_CASE("textures that only programs read: drawn with one, and nothing without", "[bridge]")
+{
+    const osg::ref_ptr<osg::Texture2DArray> array = new osg::Texture2DArray;
+    array->setTextureSize(1, 1, 2);
+    for (unsigned int layer : {0u, 1u})
+        array->setImage(layer, imageOf<uint8_t>(1, 1, GL_RGB, GL_UNSIGNED_BYTE, {10, 20, 30}));
+    const std::pair<osg::ref_ptr<osg::Texture>, GLenum> textures[] = {
+        {array, GL_TEXTURE_2D_ARRAY_EXT},
+        {new osg::TextureBuffer(
+             imageOf<uint8_t>(2, 1, GL_RGBA, GL_UNSIGNED_BYTE, {1, 2, 3, 4, 5, 6, 7, 8})),
+         GL_TEXTURE_BUFFER_ARB},
+        {new osg::Texture2DMultisample(4, false), GL_TEXTURE_2D_MULTISAMPLE}};
+    for (const auto& [texture, target] : textures)
+    {
+        const auto geometry = triangleGeometry();
+        osg::StateSet& state = *geometry->getOrCreateStateSet();
+        state.setTextureAttribute(0, texture);
+        CHECK(texture->getTextureTarget() == target);
+        ConversionInput input = inputFor(geometry);
+        input.rasterizesRest = true;
+        SceneConverter converter;
+        const ConversionResult without = converter.convert(input);
+        CHECK(soleMaterial(without).baseColorTexture == kInvalid); // as the fixed function draws it
+        CHECK(without.scene->textures.empty());
+        const osg::ref_ptr<osg::Program> program = new osg::Program;
+        program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() {}"));
+        state.setAttribute(program);
+        const ConversionResult with = converter.convert(input);
+        CHECK(countOf(with, "rasterized.shader-program") == 1);
+        CHECK(countOf(with, "converted.geometry") == 0);
     }
 }
 

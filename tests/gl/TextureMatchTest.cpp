@@ -18,6 +18,13 @@ using namespace osgRayTrace::test;
 namespace
 {
 
+constexpr std::pair<const char*, osg::Texture::WrapMode> kWrapModes[] = {
+    {"repeat", osg::Texture::REPEAT},
+    {"mirror", osg::Texture::MIRROR},
+    {"clamp", osg::Texture::CLAMP},
+    {"clamp-to-edge", osg::Texture::CLAMP_TO_EDGE},
+    {"clamp-to-border", osg::Texture::CLAMP_TO_BORDER}};
+
 /// Returns an environment picture whose smooth colours tell in which direction it is looked up.
 osg::ref_ptr<osg::Image> environmentPicture(int size)
 {
@@ -99,13 +106,7 @@ MatchSetup obliquely()
 
 TEST_CASE("match: wrap modes, with border colour", "[gl][coverage]")
 {
-    const std::pair<const char*, osg::Texture::WrapMode> modes[] = {
-        {"repeat", osg::Texture::REPEAT},
-        {"mirror", osg::Texture::MIRROR},
-        {"clamp", osg::Texture::CLAMP},
-        {"clamp-to-edge", osg::Texture::CLAMP_TO_EDGE},
-        {"clamp-to-border", osg::Texture::CLAMP_TO_BORDER}};
-    for (const auto& [name, mode] : modes)
+    for (const auto& [name, mode] : kWrapModes)
         for (const auto filter : {osg::Texture::LINEAR, osg::Texture::NEAREST})
         {
             const auto geometry = unlit(square(3.0f));
@@ -152,7 +153,7 @@ TEST_CASE("match: object and eye linear texture generation", "[gl][coverage]")
                   root, obliquely()));
 }
 
-TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl][coverage]")
+TEST_CASE("match: a TexGenNode places eye linear coordinates", "[gl][coverage]")
 {
     const auto ball = fineSphere(1.5f);
     ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
@@ -164,20 +165,15 @@ TEST_CASE("match: a TexGenNode places eye linear coordinates in the scene", "[gl
         {placed(osg::Matrixd::rotate(1.0, osg::Vec3d(0, 0, 1)) * osg::Matrixd::translate(1, 0, 0),
                 node),
          placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
-    CHECK(matches("texgen-node", root, obliquely()));
-}
-
-TEST_CASE("match: a TexGenNode of eye space moves with the view", "[gl][coverage]")
-{
-    const auto ball = fineSphere(1.5f);
-    ball->getOrCreateStateSet()->setTextureAttributeAndModes(0, textureOf(patchwork(8, GL_RGB)));
-    generate(*ball, 0, nullptr);
-    const osg::ref_ptr<osg::TexGenNode> node =
-        new osg::TexGenNode(linearTexGen(osg::TexGen::EYE_LINEAR));
-    node->setTextureUnit(0);
-    node->setReferenceFrame(osg::TexGenNode::ABSOLUTE_RF);
-    const auto root = groupOf({node, placed(osg::Matrixd::translate(-1.0, 0.5, 0.0), ball)});
-    CHECK(matches("texgen-node-absolute", root, obliquely()));
+    SECTION("in the scene")
+    {
+        CHECK(matches("texgen-node", root, obliquely()));
+    }
+    SECTION("in eye space, where they move with the view")
+    {
+        node->setReferenceFrame(osg::TexGenNode::ABSOLUTE_RF);
+        CHECK(matches("texgen-node-absolute", root, obliquely()));
+    }
 }
 
 TEST_CASE("match: sphere, reflection and normal maps follow the view", "[gl][coverage]")
@@ -284,6 +280,17 @@ osg::ref_ptr<osg::Image> anyImage(GLenum format, GLenum type)
     return image;
 }
 
+/// Returns a square with a texture whose alpha shows, too: a background of another colour.
+osg::ref_ptr<osg::Group> blended(osg::Texture* texture)
+{
+    const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
+    osg::StateSet& state = *front->getStateSet();
+    state.setTextureAttributeAndModes(0, texture);
+    state.setMode(GL_BLEND, kOn);
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    return groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
+}
+
 } // namespace
 
 TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
@@ -318,17 +325,10 @@ TEST_CASE("match: pixel formats, packed, wide and compressed", "[gl][coverage]")
                               {"rgtc2", GL_COMPRESSED_RED_GREEN_RGTC2_EXT, GL_UNSIGNED_BYTE}};
     for (const Format& format : formats)
     {
-        // The alpha is compared, too: it blends over a background of another colour.
-        const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
-        osg::StateSet& state = *front->getStateSet();
         const auto image = anyImage(format.format, format.type);
         if (format.format == GL_BGRA) image->setInternalTextureFormat(GL_RGBA);
         const auto texture = textureOf(image, osg::Texture::REPEAT, osg::Texture::NEAREST);
-        state.setTextureAttributeAndModes(0, texture);
-        state.setMode(GL_BLEND, kOn);
-        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-        const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
-        CHECK(matches(std::string("format-") + format.name, root));
+        CHECK(matches(std::string("format-") + format.name, blended(texture)));
     }
 }
 
@@ -361,15 +361,9 @@ TEST_CASE("match: textures that OpenGL compresses", "[gl]")
                           {"dxt5", Texture::USE_S3TC_DXT5_COMPRESSION, GL_RGBA}};
     for (const Mode& mode : modes)
     {
-        const auto front = unlit(square(3.0f, {1, 1, 1, 1}, 1.0f, 0.1f));
-        osg::StateSet& state = *front->getStateSet();
         const auto texture = textureOf(blocks(mode.format), Texture::REPEAT, Texture::NEAREST);
         texture->setInternalFormatMode(mode.mode);
-        state.setTextureAttributeAndModes(0, texture);
-        state.setMode(GL_BLEND, kOn);
-        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-        const auto root = groupOf({unlit(square(3.5f, osg::Vec4(0.2f, 0.5f, 0.8f, 1.0f))), front});
-        CHECK(matches(std::string("compressed-") + mode.name, root));
+        CHECK(matches(std::string("compressed-") + mode.name, blended(texture)));
     }
 }
 
@@ -399,13 +393,7 @@ osg::ref_ptr<osg::Texture3D> volume(osg::Texture::WrapMode wrap, osg::Texture::F
 
 TEST_CASE("match: 3-D textures, with three coordinates", "[gl][coverage]")
 {
-    const std::pair<const char*, osg::Texture::WrapMode> modes[] = {
-        {"repeat", osg::Texture::REPEAT},
-        {"mirror", osg::Texture::MIRROR},
-        {"clamp", osg::Texture::CLAMP},
-        {"clamp-to-edge", osg::Texture::CLAMP_TO_EDGE},
-        {"clamp-to-border", osg::Texture::CLAMP_TO_BORDER}};
-    for (const auto& [name, mode] : modes)
+    for (const auto& [name, mode] : kWrapModes)
         for (const auto filter : {osg::Texture::LINEAR, osg::Texture::NEAREST})
         {
             const auto geometry = unlit(square(3.0f));

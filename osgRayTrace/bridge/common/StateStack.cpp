@@ -124,6 +124,8 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kPrimitiveRestartSlot;
     case osg::StateAttribute::CLIPPLANE:
         return kClipPlaneSlot;
+    case osg::StateAttribute::DEPTH:
+        return kDepthSlot;
     default:
         return std::nullopt;
     }
@@ -271,7 +273,7 @@ void StateStack::push(const osg::StateSet& stateSet)
 void StateStack::forgetMasks()
 {
     GraphState& state = _states[top()];
-    for (const AttributeSlot slot : {kStencilSlot, kColorMaskSlot})
+    for (const AttributeSlot slot : {kStencilSlot, kColorMaskSlot, kDepthSlot})
     {
         state.attributes[slot] = nullptr;
         state.attributesOverride &= ~(1u << slot);

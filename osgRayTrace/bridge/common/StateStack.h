@@ -75,7 +75,8 @@ enum AttributeSlot : unsigned int
     kStencilSlot,
     kColorMaskSlot,
     kAssemblyProgramSlot, ///< last osg::VertexProgram or osg::FragmentProgram met
-    kUnitSlot,            ///< first slot of unit 0, see UnitSlot; those of unit 1 follow
+    kDepthSlot,
+    kUnitSlot, ///< first slot of unit 0, see UnitSlot; those of unit 1 follow
     kAttributeSlots = kUnitSlot + 8,
 };
 
@@ -146,8 +147,8 @@ public:
     void push(const osg::StateSet& stateSet);
     void pop() { _stack.pop_back(); }
 
-    /// Forgets stencil and colour masks that were pushed up to now, because they hold for all of
-    /// the picture alike, traced or not.
+    /// Forgets stencil, colour masks and depth that were pushed up to now, because they hold for
+    /// all of the picture alike, traced or not.
     void forgetMasks();
 
     /// Returns the number of the current state in states().

@@ -8,8 +8,8 @@
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
-#include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <memory>
 #include <vector>

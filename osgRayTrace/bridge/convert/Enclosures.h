@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
+#include "osgRayTrace/bridge/graph/ConversionInput.h"
 
 namespace osgRayTrace::engine
 {

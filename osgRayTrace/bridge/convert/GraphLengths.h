@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/common/SceneExtent.h"
-#include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 
 namespace osgRayTrace::engine
 {

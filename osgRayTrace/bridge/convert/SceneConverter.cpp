@@ -13,6 +13,7 @@
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include <algorithm>
 #include <chrono>
 

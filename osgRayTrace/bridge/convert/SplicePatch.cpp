@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <algorithm>
 

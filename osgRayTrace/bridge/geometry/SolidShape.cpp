@@ -61,54 +61,44 @@ std::vector<UVec3> hemisphereTriangles(uint32_t n)
     return triangles;
 }
 
-/// Appends the hemisphere around -z: the mirror image of the other one. lower: the index of each of
-/// its vertices.
-void appendLower(const std::vector<UVec3>& upper, const std::vector<uint32_t>& lower,
-                 SolidShape& shape)
-{
-    for (const UVec3& t : upper)
-        shape.triangles.emplace_back(lower[t.x], lower[t.z], lower[t.y]);
-}
-
 Vec3d mirrored(const Vec3d& direction)
 {
     return {direction.x, direction.y, -direction.z};
 }
 
-SolidShape sphereOf(uint32_t n)
+/// A shape of two hemispheres; lower names the mirror image of each vertex of the upper one.
+struct Hemispheres
+{
+    SolidShape shape;
+    std::vector<uint32_t> lower;
+};
+
+/// Returns the hemispheres of a capsule, which stand apart, or those of a sphere, which share the
+/// vertices of the equator.
+Hemispheres hemispheresOf(uint32_t n, bool capsule)
 {
     const std::vector<Vec3d> directions = hemisphere(n);
     const std::vector<UVec3> upper = hemisphereTriangles(n);
-    SolidShape sphere;
+    Hemispheres both;
+    SolidShape& shape = both.shape;
     for (const Vec3d& direction : directions)
-        sphere.vertices.push_back({direction, false});
-    sphere.triangles = upper;
-    std::vector<uint32_t> lower;
+        shape.vertices.push_back({direction, capsule});
+    shape.triangles = upper;
     const uint32_t equator = ringVertex(n, 0);
     for (uint32_t i = 0; i < directions.size(); ++i)
     {
-        lower.push_back(i >= equator ? i : static_cast<uint32_t>(sphere.vertices.size()));
-        if (i < equator) sphere.vertices.push_back({mirrored(directions[i]), false});
+        const bool shared = !capsule && i >= equator;
+        both.lower.push_back(shared ? i : static_cast<uint32_t>(shape.vertices.size()));
+        if (!shared) shape.vertices.push_back({mirrored(directions[i]), false});
     }
-    appendLower(upper, lower, sphere);
-    return sphere;
+    for (const UVec3& t : upper)
+        shape.triangles.emplace_back(both.lower[t.x], both.lower[t.z], both.lower[t.y]);
+    return both;
 }
 
 SolidShape capsuleOf(uint32_t n)
 {
-    const std::vector<Vec3d> directions = hemisphere(n);
-    const std::vector<UVec3> upper = hemisphereTriangles(n);
-    SolidShape capsule;
-    for (const Vec3d& direction : directions)
-        capsule.vertices.push_back({direction, true});
-    capsule.triangles = upper;
-    std::vector<uint32_t> lower;
-    for (const Vec3d& direction : directions)
-    {
-        lower.push_back(static_cast<uint32_t>(capsule.vertices.size()));
-        capsule.vertices.push_back({mirrored(direction), false});
-    }
-    appendLower(upper, lower, capsule);
+    auto [capsule, lower] = hemispheresOf(n, true);
     for (uint32_t i = 0; i < 4 * n; ++i)
     {
         const uint32_t here = ringVertex(n, i), next = ringVertex(n, i + 1);
@@ -133,7 +123,7 @@ double inradius(const SolidShape& sphere)
 
 SolidShapes shapesOf(uint32_t n)
 {
-    SolidShapes shapes{sphereOf(n), capsuleOf(n), 1.0};
+    SolidShapes shapes{hemispheresOf(n, false).shape, capsuleOf(n), 1.0};
     shapes.outset = 2.0 / (1.0 + inradius(shapes.sphere));
     return shapes;
 }

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 #include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/common/NodeKind.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"

@@ -3,32 +3,20 @@
 #pragma once
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
-#include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
-#include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneExtent.h"
-#include "osgRayTrace/bridge/common/StateStack.h"
-#include "osgRayTrace/bridge/geometry/TriangleList.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
-#include "osgRayTrace/bridge/graph/CullOutcome.h"
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
-#include "osgRayTrace/bridge/graph/NodeTree.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
-#include "osgRayTrace/bridge/graph/RasterizedParts.h"
 #include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
-#include <osgRayTrace/AreaLight>
-#include <osgRayTrace/EnvironmentLight>
-
 #include <osg/Geometry>
-#include <osg/LightSource>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
-#include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -41,86 +29,6 @@ namespace osgRayTrace::engine
 /// recursive in OSG and here: a transform takes about 400 bytes of stack, more in debug builds, and
 /// threads may have little stack.
 constexpr std::size_t kDeepestPath = 5000;
-
-/// A use is one path to a geometry.
-struct GeometryUse
-{
-    osg::Matrixd engineFromLocal;    ///< affine, finite, invertible; see applyUnit
-    uint32_t state = 0;              ///< index into CollectedGraph::states
-    uint32_t path = NodeTree::kNone; ///< index into CollectedGraph::paths; kNone: no picks
-    bool proxy = false;              ///< OSG draws the use, and camera rays pass it: see Proxies.h
-};
-
-struct CollectedGeometry
-{
-    osg::ref_ptr<const osg::Geometry> geometry;
-    std::string path; ///< path of the first use: "root/child/geometry"
-    std::vector<GeometryUse> uses;
-    PrimitiveRestart restart; ///< primitive restart of all uses
-    float pointRadius = 0.0f; ///< radius of its points and lines; 0: they are left to OSG
-    bool watched = true;      ///< no path is below a node that GraphWatch does not look into
-    const VertexBounds* bounds = nullptr; ///< bounds that SceneConverter sets
-
-    /// Returns whether OSG draws all uses: what is left out of a proxy is not missing in a picture.
-    bool isProxy() const
-    {
-        return std::all_of(uses.begin(), uses.end(),
-                           [](const GeometryUse& use) { return use.proxy; });
-    }
-};
-
-struct CollectedLight
-{
-    osg::ref_ptr<const osg::LightSource> source;
-    osg::Matrixd engineFromLocal; ///< identity in eye space
-    bool eyeSpace = false;
-    std::string path;
-};
-
-struct CollectedAreaLight
-{
-    osg::ref_ptr<const AreaLight> light;
-    osg::Matrixd engineFromLocal;
-    std::string path;
-    uint32_t pickPath = NodeTree::kNone; ///< index like GeometryUse::path
-};
-
-struct CollectedEnvironment
-{
-    osg::ref_ptr<const EnvironmentLight> light;
-    osg::Matrixd engineFromLocal;
-    std::string path;
-};
-
-/// The lights stand in the order of the traversal.
-struct LightSources
-{
-    std::vector<CollectedLight> lights;
-    std::vector<CollectedAreaLight> areaLights;
-    std::vector<CollectedEnvironment> environments;
-};
-
-/// The attributes of states belong to the collector's state sets and are valid as long as the
-/// collector lives. The collected graph keeps all else alive, even if a node of the application's
-/// changes the scene graph during the traversal.
-struct CollectedGraph
-{
-    std::vector<CollectedGeometry> geometries; ///< geometries in the order of their first use
-    LightSources lights;
-    std::vector<GraphState> states;
-    PlacedTexGens texGens; ///< last generation of each unit, as OpenGL keeps it
-    ClipPlanes clipPlanes;
-    std::optional<osg::Vec4>
-        clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
-    bool paged = false; ///< see ConversionResult
-    bool hasProxies = false;               ///< some use is a proxy
-    RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
-    NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
-    std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
-    std::vector<CullOutcome> cullOutcomes; ///< decisions on subtrees that may draw in cull alone
-    bool cullUnknown = false; ///< true: there was no view that could decide on such a subtree
-    std::vector<const osg::Geometry*> leftGeometries; ///< geometries in groups of rasterized
-};
 
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. The collector counts what is not a part of the

@@ -19,12 +19,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Follows the depth test and the render bins down a path. Depth follows OVERRIDE and PROTECTED as
-/// in osg::State. Nested bins are drawn with the bin around them, so the lowest number counts.
+/// Follows the depth test and the render bins down a path. Nested bins are drawn with the bin
+/// around them, so the lowest number counts.
 struct DrawOrder
 {
-    const osg::Depth* depth = nullptr;
-    unsigned int depthValue = osg::StateAttribute::OFF;
     unsigned int testValue = osg::StateAttribute::ON; ///< value of the mode GL_DEPTH_TEST
     int lowestBin = 0;
 
@@ -32,31 +30,21 @@ struct DrawOrder
     {
         if (stateSet.useRenderBinDetails())
             lowestBin = std::min(lowestBin, stateSet.getBinNumber());
-        const auto* const pair = stateSet.getAttributePair(osg::StateAttribute::DEPTH);
-        if (pair && replaces(depthValue, pair->second))
-        {
-            depth = dynamic_cast<const osg::Depth*>(pair->first.get());
-            depthValue = pair->second;
-        }
         const auto test = stateSet.getModeList().find(GL_DEPTH_TEST);
-        if (test != stateSet.getModeList().end() && replaces(testValue, test->second))
-            testValue = test->second;
-    }
-
-    static bool replaces(unsigned int inherited, unsigned int value)
-    {
-        return !(inherited & osg::StateAttribute::OVERRIDE) ||
-               (value & osg::StateAttribute::PROTECTED);
+        if (test == stateSet.getModeList().end()) return;
+        const bool replaces = !(testValue & osg::StateAttribute::OVERRIDE) ||
+                              (test->second & osg::StateAttribute::PROTECTED);
+        if (replaces) testValue = test->second;
     }
 };
 
 /// Returns whether OSG draws as it draws a surface: nearer ones hide it, and it hides those behind.
 /// Skies are drawn behind everything, overlays before it, and passes over other surfaces test for
 /// equal depth.
-bool isDrawnAsSurface(const DrawOrder& order)
+bool isDrawnAsSurface(const DrawOrder& order, const GraphState& state)
 {
     if (order.lowestBin < 0 || !(order.testValue & osg::StateAttribute::ON)) return false;
-    const osg::Depth* depth = order.depth;
+    const auto* depth = state.attribute<osg::Depth>(kDepthSlot);
     if (!depth) return true;
     switch (depth->getFunction())
     {
@@ -67,11 +55,11 @@ bool isDrawnAsSurface(const DrawOrder& order)
     default:
         break;
     }
-    return depth->getWriteMask() && depth->getZNear() != depth->getZFar();
+    return depth->getWriteMask() && !hasOneDepth(state);
 }
 
 /// Returns whether all nodes of the path are placed in the scene, and drawn as its surfaces are.
-bool isOfTheScene(const osg::NodePath& path)
+bool isOfTheScene(const osg::NodePath& path, const GraphState& state)
 {
     DrawOrder order;
     for (const osg::Node* node : path)
@@ -82,7 +70,7 @@ bool isOfTheScene(const osg::NodePath& path)
             return false;
         if (node->getStateSet()) order.apply(*node->getStateSet());
     }
-    return isDrawnAsSurface(order);
+    return isDrawnAsSurface(order, state);
 }
 
 /// Returns whether a program may place the vertices elsewhere: in each instance of an instanced
@@ -121,7 +109,7 @@ GraphState withoutColors(GraphState state)
 bool hasProxy(const osg::Drawable& drawable, const osg::NodePath& path, const GraphState& state,
               const TextureConverter& textures)
 {
-    if (hintOf(path) == DrawHint::RasterizeOnly || !isOfTheScene(path)) return false;
+    if (hintOf(path) == DrawHint::RasterizeOnly || !isOfTheScene(path, state)) return false;
     if (programOf(state) && (isPlacedByProgram(drawable) || showsInside(state))) return false;
     if (!rasterizedState(state, textures, nullptr)) return true; // it could be traced as it is
     return blendingOf(state) == Blending::Opaque &&

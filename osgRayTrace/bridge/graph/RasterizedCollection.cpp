@@ -1,5 +1,6 @@
 // RasterizedCollection.cpp - collects the parts that GraphCollector leaves to OSG. Layer: bridge.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/LibraryName.h"
 #include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"

@@ -78,40 +78,6 @@ private:
     std::vector<osg::Node*> _nodes;
 };
 
-/// Places the state of a node, as CullVisitor does on its way to the node's children, which are not
-/// wanted here.
-void placeState(const osg::Node& node, osgUtil::CullVisitor& visitor)
-{
-    osg::RefMatrix* matrix = visitor.getModelViewMatrix();
-    if (const auto* source = dynamic_cast<const osg::LightSource*>(&node))
-    {
-        const bool inEyeSpace = source->getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
-        if (source->getLight())
-            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, source->getLight());
-    }
-    else if (const auto* clip = dynamic_cast<const osg::ClipNode*>(&node))
-    {
-        const bool inEyeSpace = clip->getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
-        for (const osg::ref_ptr<osg::ClipPlane>& plane : clip->getClipPlaneList())
-            visitor.addPositionedAttribute(inEyeSpace ? nullptr : matrix, plane.get());
-    }
-    else if (const auto* texGen = dynamic_cast<const osg::TexGenNode*>(&node))
-    {
-        const bool inEyeSpace = texGen->getReferenceFrame() == osg::TexGenNode::ABSOLUTE_RF;
-        if (texGen->getTexGen())
-            visitor.addPositionedTextureAttribute(
-                texGen->getTextureUnit(), inEyeSpace ? nullptr : matrix, texGen->getTexGen());
-    }
-    else if (const auto* clear = dynamic_cast<const osg::ClearNode*>(&node))
-    {
-        osgUtil::RenderStage* stage = visitor.getCurrentRenderBin()->getStage();
-        if (clear->getRequiresClear()) stage->setClearColor(clear->getClearColor());
-        // A sky that clears by its own Depth is traced, and leaves the depth buffer as it was.
-        stage->setClearMask(clear->getRequiresClear() ? clear->getClearMask()
-                                                      : GL_DEPTH_BUFFER_BIT);
-    }
-}
-
 /// Returns whether a part mixes with the traced picture. A colour mask leaves channels of the
 /// picture beneath, and a logic operation combines with it; that picture is the traced one:
 /// DisplayTexture draws it in bin 1. Whoever has chosen a bin has chosen an order.

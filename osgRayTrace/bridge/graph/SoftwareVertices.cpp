@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
-#include "osgRayTrace/bridge/graph/UntracedParts.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 
 #include <osg/Transform>
 #include <osgAnimation/BoneMapVisitor>

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -31,11 +32,6 @@ bool looksIntoOpenGL(const PhysicalMaterial& material, const TextureConverter& t
 }
 
 } // namespace
-
-bool isFrom(const osg::Object* object, const char* library)
-{
-    return std::strcmp(object->libraryName(), library) == 0;
-}
 
 const char* untracedDrawable(const osg::Drawable& drawable)
 {
@@ -80,6 +76,7 @@ const char* rasterizedState(const GraphState& state, const TextureConverter& tex
     if (program && program != poses && !replaced) return "rasterized.shader-program";
     if (usesStencil(state)) return "rasterized.stencil";
     if (masksColor(state)) return "rasterized.color-mask";
+    if (hasOneDepth(state)) return "rasterized.depth-range";
     if (state.isOn(kLogicOpBit)) return "rasterized.logic-operation";
     if (state.isOn(kPolygonStippleBit)) return "rasterized.polygon-stipple";
     const auto* material = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);

@@ -11,9 +11,6 @@
 namespace osgRayTrace::engine
 {
 
-/// Returns whether the object's class is one of this library.
-bool isFrom(const osg::Object* object, const char* library);
-
 /// The reasons that these functions return are keys of ConversionCounts.
 
 /// Returns why a drawable that is no osg::Geometry is not traced; null: the drawable is our own.

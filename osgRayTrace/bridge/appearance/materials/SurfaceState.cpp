@@ -8,6 +8,7 @@
 #include <osg/ClipPlane>
 #include <osg/ColorMask>
 #include <osg/CullFace>
+#include <osg/Depth>
 #include <osg/PolygonMode>
 #include <osg/PolygonOffset>
 #include <osg/Program>
@@ -57,6 +58,12 @@ bool usesStencil(const GraphState& state)
     return state.isOn(kStencilBit) && state.attributes[kStencilSlot];
 }
 
+bool hasOneDepth(const GraphState& state)
+{
+    const auto* depth = state.attribute<osg::Depth>(kDepthSlot);
+    return depth && depth->getZNear() == depth->getZFar();
+}
+
 float depthBias(const GraphState& state)
 {
     constexpr float kMostLayers = 64.0f;
@@ -88,6 +95,7 @@ void countApproximations(const GraphState& state, ConversionReport& report)
     if (programOf(state) && !replaced) report.count("approximated.shader");
     if (usesStencil(state)) report.count("approximated.stencil");
     if (masksColor(state)) report.count("approximated.color-mask");
+    if (hasOneDepth(state)) report.count("approximated.depth-range");
     if (state.isOn(kLogicOpBit)) report.count("approximated.logic-operation");
     if (state.isOn(kPolygonStippleBit)) report.count("approximated.polygon-stipple");
     const Blending blending = blendingOf(state);

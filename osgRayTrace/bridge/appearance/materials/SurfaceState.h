@@ -34,6 +34,10 @@ bool masksColor(const GraphState& state);
 /// Returns whether a stencil test compares, or writes what others are compared with.
 bool usesStencil(const GraphState& state);
 
+/// Returns whether all depths are one by the range of an osg::Depth, whatever their geometry: as
+/// those of skies are, which are behind everything.
+bool hasOneDepth(const GraphState& state);
+
 /// Returns the number of layers by which glPolygonOffset lifts the faces towards the viewer, or 0
 /// if it lifts none. The offset's units count, or its factor if its units are 0.
 float depthBias(const GraphState& state);
