@@ -187,6 +187,9 @@ const std::vector<OptionRow>& optionTable()
                   "Viewers trace each frame, or show the newest image that a worker has made"),
         switchRow("reproject", &S::getReproject, &S::setReproject,
                   "A view that moves takes along what its image has accumulated"),
+        switchRow(
+            "keep-unchanged", &S::getKeepUnchanged, &S::setKeepUnchanged,
+            "A view at rest keeps what nothing near has changed, if little in the scene does"),
         numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
                   "Threads, the calling one included; 0: all of the machine"),
         numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),

@@ -188,6 +188,11 @@ void RayTraceSettings::setReproject(bool value)
     change(_values.reproject, value, _modifiedCount);
 }
 
+void RayTraceSettings::setKeepUnchanged(bool value)
+{
+    change(_values.keepUnchanged, value, _modifiedCount);
+}
+
 void RayTraceSettings::setPhotonGuiding(bool value)
 {
     change(_values.photonGuiding, value, _modifiedCount);

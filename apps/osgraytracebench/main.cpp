@@ -11,6 +11,7 @@
 #include "apps/osgraytracebench/modes/LimitMode.h"
 #include "apps/osgraytracebench/modes/PickMode.h"
 #include "apps/osgraytracebench/modes/ReprojectMode.h"
+#include "apps/osgraytracebench/modes/TrafficMode.h"
 #include "apps/osgraytracebench/modes/UpdateMode.h"
 #include "apps/osgraytracebench/modes/UpsampleMode.h"
 #include "apps/osgraytracebench/photons/PhotonsMode.h"
@@ -179,6 +180,27 @@ Run addReproject(CLI::App& mode)
     };
 }
 
+Run addTraffic(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<TrafficOptions>();
+    mode.add_option("--width", options->width, "width of the pictures [pixels]")
+        ->check(CLI::Range(16, 4096))
+        ->capture_default_str();
+    mode.add_option("--references", options->references,
+                    "passes of the pictures that they are compared with")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    mode.add_option("--frames", options->frames, "frames of each town")
+        ->check(CLI::Range(8, 1 << 16))
+        ->capture_default_str();
+    mode.add_option("--pictures", options->pictures, "write the last frames to this folder");
+    return [=] {
+        return runRows([&](Rows& rows) { measureTraffic(*options, rows); }, *json,
+                       options->pictures);
+    };
+}
+
 Run addReport(CLI::App& mode)
 {
     const auto options = std::make_shared<ReportOptions>();
@@ -246,6 +268,7 @@ public:
             addRows<measureDenoise>);
         add("reproject", "what a moving view gains from its earlier frames, and what they cost",
             addReproject);
+        add("traffic", "what a still view keeps of its samples while some cars move", addTraffic);
         add("report", "error against time, of all methods on many scenes", addReport);
         add("compare", "which rows of two reports differ by more than their noise", addCompare);
         application.require_subcommand(1);

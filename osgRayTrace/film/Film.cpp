@@ -132,6 +132,7 @@ void Film::reset(int width, int height)
         _tilesY = tilesY;
     }
     std::fill(_passes.begin(), _passes.end(), 0);
+    _holdsDepths = false;
     std::vector<double>().swap(_totals);
 }
 

@@ -81,6 +81,12 @@ public:
     RgbaLanes* firstPassStorage(int tile);
     void finishPass(int tile);
 
+    /// Says that the window depths of the image before reset() hold on in tiles without a pass.
+    void holdDepths() { _holdsDepths = true; }
+
+    /// Returns whether the tile has window depths.
+    bool hasDepth(int tile) const { return _holdsDepths || tilePasses(tile) > 0; }
+
     /// Adds the next pass of a tile.
     void addPass(int tile, const RgbaLanes* values);
 
@@ -132,6 +138,7 @@ private:
     std::vector<double> _totals;     ///< tile, half, block; empty until a half has kFoldPasses
     UnclearedArray<float> _depth;    ///< tile, block, lane
     std::vector<int> _passes;        ///< passes of a tile
+    bool _holdsDepths = false;
 };
 
 } // namespace osgRayTrace::engine

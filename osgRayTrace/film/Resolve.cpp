@@ -175,7 +175,7 @@ struct FarTile
 const float* depthOf(const Film& film, int tile)
 {
     static const FarTile far;
-    return film.tilePasses(tile) > 0 ? film.depth(tile) : far.depth;
+    return film.hasDepth(tile) ? film.depth(tile) : far.depth;
 }
 
 } // namespace

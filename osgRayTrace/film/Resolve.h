@@ -21,7 +21,7 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
 /// resolveTileDisplay computes them.
 void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image);
 
-/// Writes the window depths of the first pass, 1 float a pixel; 1 for a tile without a pass.
+/// Writes the window depths of the first pass, 1 float a pixel; 1 for a tile without depths.
 void resolveTileDepth(const Film& film, int tile, float* depth);
 
 /// Writes the estimated standard error of each pixel's mean, linear RGB, 3 floats a pixel; needs

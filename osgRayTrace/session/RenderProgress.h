@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -39,6 +40,10 @@ struct StopRule
     /// follow each other, see TileOrder. These squares, and not tiles, are then even over the
     /// image.
     int groupedTiles = 1;
+    /// With shouldStop, the tiles that the first pass of the image takes before all others, by a
+    /// mark each; after these the tiles come first that had no pass for the longest time. May be
+    /// null.
+    const std::vector<uint8_t>* firstTiles = nullptr;
 };
 
 /// The reasons why photons have less effect than a user may expect.

@@ -52,6 +52,12 @@ void RenderSession::setKeepsSurfaces(bool keeps)
     _state->keepsSurfaces = keeps;
 }
 
+void RenderSession::setContinuesView(bool continues)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    _state->continuesView = continues;
+}
+
 void RenderSession::setSequence(uint32_t sequence)
 {
     const ThreadSeam::Entry inside(_state->seam);
@@ -107,6 +113,22 @@ int RenderSession::tilesLeft() const
     for (int tile = 0; tile < film.tileCount(); ++tile)
         left += film.tilePasses(tile) == pass;
     return left;
+}
+
+int RenderSession::tilePasses(int tile) const
+{
+    return _state->film.tilePasses(tile);
+}
+
+const TracedScene& RenderSession::imageScene() const
+{
+    return *_state->filmScene;
+}
+
+const std::vector<Light>& RenderSession::imageLights() const
+{
+    const SessionState& session = *_state;
+    return session.placedLights.empty() ? session.filmScene->scene().lights : session.placedLights;
 }
 
 const RenderProgress& RenderSession::progress() const

@@ -7,6 +7,7 @@
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/shared/RenderOptions.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
+#include "osgRayTrace/scene/Light.h"
 #include "osgRayTrace/scene/View.h"
 #include "osgRayTrace/session/DisplayTarget.h"
 #include "osgRayTrace/session/RenderProgress.h"
@@ -52,6 +53,10 @@ public:
     /// surfaces().
     void setKeepsSurfaces(bool keeps);
 
+    /// Sets whether the next image that is begun, if it is of the same view, keeps the window
+    /// depths and the surfaces of the image before it in tiles that have no pass yet.
+    void setContinuesView(bool continues);
+
     /// Sets which of many independent sequences of random numbers the next image that is begun
     /// takes: images that are averaged need different sequences. Sequence 0 is that of the options'
     /// seed. Photons are the same for all sequences.
@@ -78,6 +83,14 @@ public:
 
     /// Returns the number of tiles without the pass at work, or of all tiles if no pass is at work.
     int tilesLeft() const;
+
+    /// Returns the passes of a tile: one more than progress().passes if it has the pass at work.
+    int tilePasses(int tile) const;
+
+    /// Returns the scene that the image is of, and its lights as placed for the image's view. There
+    /// is an image.
+    const TracedScene& imageScene() const;
+    const std::vector<Light>& imageLights() const;
 
     /// These functions return the state after the last render(). Width and height are those of the
     /// image, which may be older than setView's.
@@ -118,6 +131,10 @@ public:
     /// view of no size if the samples were not kept.
     const SurfaceMap& surfaces();
     const SurfaceMap& lastSurfaces() const;
+
+    /// Returns what the first samples of the pixels met, without smooth and interior pixels. If the
+    /// image was begun without keeping it, rays through the middles of the pixels find it now.
+    const SurfaceMap& firstSurfaces();
 
     /// Makes the same view of another size, mostly a larger one, from an image and samples of this
     /// one's, filtered or not: see Upsample.h. Vectors of result that have the size already are

@@ -125,7 +125,7 @@ ResolvedImage RenderSession::resolvedImage() const
 {
     const SessionState& session = *_state;
     ResolvedImage image;
-    if (!session.filmScene || session.film.passes() < 1) return image;
+    if (!session.filmScene || !session.hasAllDepths()) return image;
     image.width = width();
     image.height = height();
     image.radiance = resolveRadiance();
@@ -138,7 +138,7 @@ const std::vector<SurfaceSample>& RenderSession::surfaceSamples() const
 {
     static const NeverDestroyed<std::vector<SurfaceSample>> kNone;
     SessionState& session = *_state;
-    const bool hasImage = session.filmScene && session.film.passes() > 0;
+    const bool hasImage = session.filmScene && session.hasAllDepths();
     if (!hasImage) return *kNone;
     if (!session.hasSamples)
         engine::surfaceSamples(session.contextOfPass(0), *session.workers, session.samples);
@@ -183,6 +183,32 @@ void SessionState::finishSurfaces()
 const SurfaceMap& RenderSession::surfaces()
 {
     _state->finishSurfaces();
+    return _state->surfaces;
+}
+
+/// Finds the surfaces in the middles of all pixels of the film's view.
+void SessionState::findSurfaces()
+{
+    if (!beginSurfaceMap(filmView, surfaces)) return;
+    const PassContext context = contextOfPass(0);
+    const int across = (filmView.width + kBlockSize - 1) / kBlockSize;
+    const int down = (filmView.height + kBlockSize - 1) / kBlockSize;
+    workers->forEach(static_cast<std::size_t>(down),
+                     [&](std::size_t row)
+                     {
+                         const int bottom = static_cast<int>(row) * kBlockSize;
+                         for (int column = 0; column < across; ++column)
+                         {
+                             SurfaceBlock seen;
+                             firstSurfaces(context, column * kBlockSize, bottom, 0, seen);
+                             setBlock(column * kBlockSize, bottom, seen, surfaces);
+                         }
+                     });
+}
+
+const SurfaceMap& RenderSession::firstSurfaces()
+{
+    if (!_state->surfaces.isOf(_state->filmView)) _state->findSurfaces();
     return _state->surfaces;
 }
 

@@ -85,6 +85,22 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     photonsCounted = pass + 1;
 }
 
+/// Returns all tiles: those with a mark, then those that had no pass for the longest time.
+std::vector<std::size_t> SessionState::firstPassOrder(const TileOrder& order,
+                                                      const std::vector<uint8_t>& firstTiles) const
+{
+    const auto tiles = static_cast<std::size_t>(film.tileCount());
+    std::vector<std::size_t> queue;
+    queue.reserve(tiles);
+    for (std::size_t place = 0; place < order.places(); ++place)
+        if (order.tile(place) < tiles) queue.push_back(order.tile(place));
+    const auto urgency = [&](std::size_t tile)
+    { return firstTiles[tile] ? 0x10000 : static_cast<int>(tileAges[tile]); };
+    std::stable_sort(queue.begin(), queue.end(),
+                     [&](std::size_t a, std::size_t b) { return urgency(a) > urgency(b); });
+    return queue;
+}
+
 /// Adds one pass to every tile that does not have it yet, and shows the pass. Returns false if some
 /// tiles still lack the pass.
 bool SessionState::renderPass(const PassContext& context, const Integrator& integrator,
@@ -102,10 +118,16 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     dirtyTiles.resize(tiles);
     film.beginPass();
     const bool partial = rule.shouldStop || rule.newTiles < std::numeric_limits<int>::max();
+    const std::vector<std::size_t> queue = partial && pass == 0 && rule.firstTiles
+                                               ? firstPassOrder(order, *rule.firstTiles)
+                                               : std::vector<std::size_t>();
     const auto renderOne = [&](std::size_t index)
     {
         // Workers begin at several places at once; all of them together have to keep an order.
-        if (partial) index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
+        if (!queue.empty())
+            index = queue[next.fetch_add(1, std::memory_order_relaxed)];
+        else if (partial)
+            index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
         if (index == tiles) return;
         const int tile = static_cast<int>(index);
         bool renders = film.tilePasses(tile) == pass &&
@@ -131,7 +153,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     };
     try
     {
-        workers->forEach(partial ? order.places() : tiles, renderOne);
+        workers->forEach(partial && queue.empty() ? order.places() : tiles, renderOne);
     }
     catch (...)
     {

@@ -78,8 +78,9 @@ bool SessionState::begin()
     const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
     if (environment && options.environmentSampling == EnvironmentSampling::Structured)
         newStrata = environment->strata(options.environmentSamples);
-    if (film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
-    film.reset(view.width, view.height);
+    const bool continues = continuesView && sameSize && view == filmView;
+    if (!continues && film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
+    resetFilm(continues);
     photons.reset(film.tileCount());
     camera = *rays;
     filmScene = scene;
@@ -101,10 +102,29 @@ bool SessionState::begin()
         hasSamples = true;
     }
     if (!keepsSurfaces) surfaces = lastSurfaces = SurfaceMap();
+    if (continues) return true;
     surfaces.view = View();
     if (keepsSurfaces && progress.integrator != IntegratorKind::Debug)
         beginSurfaceMap(view, surfaces);
     return true;
+}
+
+/// Clears the film for the wanted view. If the view continues, tiles without a pass have the depths
+/// and the surfaces that they had, and grow older.
+void SessionState::resetFilm(bool continues)
+{
+    if (continues)
+        for (int tile = 0; tile < film.tileCount(); ++tile)
+        {
+            uint16_t& age = tileAges[static_cast<std::size_t>(tile)];
+            age = film.tilePasses(tile) > 0 ? 0 : static_cast<uint16_t>(std::min(age + 1, 0xffff));
+        }
+    film.reset(view.width, view.height);
+    surfaces.finished = false;
+    if (continues)
+        film.holdDepths();
+    else
+        tileAges.assign(static_cast<std::size_t>(film.tileCount()), 0);
 }
 
 PassContext SessionState::contextOfPass(int pass) const

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/TileOrder.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/session/DisplayTarget.h"
 #include "osgRayTrace/session/PhotonState.h"
@@ -31,10 +32,18 @@ struct SessionState
     double estimateError() const;
     void addTileCounts();
     double imageShare() const;
+    bool hasAllDepths() const
+    {
+        return film.tileCount() > 0 && (film.passes() > 0 || film.hasDepth(0));
+    }
     RenderProgress run(const StopRule& rule,
                        const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);
     void finishSurfaces();
+    void findSurfaces();
+    void resetFilm(bool continues);
+    std::vector<std::size_t> firstPassOrder(const TileOrder& order,
+                                            const std::vector<uint8_t>& firstTiles) const;
     void resolve(const DisplayTarget& display, bool over) const;
     void resolveTile(const DisplayTarget& display, int tile) const;
     void resolveRest(const DisplayTarget& display);
@@ -49,6 +58,7 @@ struct SessionState
     RenderOptions options;
     uint32_t sequence = 0;
     bool keepsSurfaces = false;
+    bool continuesView = false; // whether the next image keeps depths and surfaces of its view
 
     // These values describe what the film holds.
     std::shared_ptr<const TracedScene> filmScene;
@@ -65,6 +75,7 @@ struct SessionState
     PhotonState photons;
     RenderProgress progress;
     std::vector<TileCounts> tileCounts; // counts of the pass that is rendered
+    std::vector<uint16_t> tileAges;     // images of the same view since a tile had a pass
     std::vector<uint8_t> dirtyTiles;    // tiles with passes of this call that the display lacks
     int photonsCounted = 0;             // passes whose photon rays are in progress
 

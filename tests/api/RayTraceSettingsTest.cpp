@@ -81,6 +81,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getPhotonGuiding());
     CHECK(settings->getDenoise() == RayTraceSettings::OFF);
     CHECK_FALSE(settings->getReproject());
+    CHECK(settings->getKeepUnchanged());
 }
 
 TEST_CASE("settings: each option has a name and an environment variable of its own",

@@ -158,6 +158,7 @@ LiveView::LiveView(osg::Node* root) : _root(root)
 {
     _settings->setThreads(2);
     _settings->setMaxPasses(1000);
+    _settings->setKeepUnchanged(false); // images are compared with those of a fresh conversion
     recordEye(osg::Vec3d(1.2, -1.5, 4.0));
     update();
 }

@@ -1,6 +1,7 @@
 // LiveSceneTest.cpp - what is redone for each kind of edit, and that the picture is that of a fresh
 // conversion.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/history/SceneChange.h"
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 
@@ -8,6 +9,9 @@
 #include <osg/LightSource>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Switch>
+
+#include <functional>
+#include <optional>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -263,4 +267,32 @@ TEST_CASE("live scene: two views of it restart with it, views of another do not"
     unrelated.image();
     CHECK(first.passes() == 1);
     CHECK(unrelated.passes() == passes + 1);
+}
+
+TEST_CASE("live scene: edits of single objects differ from the last version by these objects",
+          "[bridge]")
+{
+    LiveGraph graph;
+    LiveView view(graph.root);
+    const auto changeBy = [&](const std::function<void()>& edit)
+    {
+        const Scene before = *view.scene();
+        edit();
+        view.update();
+        return sceneChange(before, *view.scene());
+    };
+    const auto changed = [](const std::optional<SceneChange>& change)
+    { return change ? static_cast<int>(change->instances.size()) : -1; };
+    const auto move = [&] { graph.objects[1]->setMatrix(osg::Matrixd::translate(0.3, 0.2, 0.1)); };
+    CHECK(changed(changeBy(move)) == 1); // it leaves the static BVH
+    const auto moveOn = [&]
+    { graph.objects[1]->setMatrix(osg::Matrixd::translate(0.6, 0.2, 0.1)); };
+    CHECK(changed(changeBy(moveOn)) == 1);
+    CHECK(changed(changeBy([&] { graph.deform(2, 0.4f); })) == 1);
+    const osg::ref_ptr<osg::MatrixTransform> more = graph.newObject(7, 1.0, 1.0);
+    CHECK(changed(changeBy([&] { graph.root->addChild(more); })) == 1);
+    CHECK(changed(changeBy([&] { graph.root->removeChild(more); })) == 1);
+    CHECK(changed(changeBy([] {})) == 0);
+    CHECK(changed(changeBy([&] { graph.light->getLight()->setDiffuse(osg::Vec4(1, 0, 0, 1)); })) ==
+          -1);
 }

@@ -28,6 +28,7 @@ TEST_CASE("view inputs: whatever differs asks for another image, a copy does not
         [](ViewInputs& other) { other.exposureEv = 1.0f; },
         [](ViewInputs& other) { other.denoise = DenoiseKind::Filter; },
         [](ViewInputs& other) { other.reprojects = true; },
+        [](ViewInputs& other) { other.keepsUnchanged = true; },
         [](ViewInputs& other) { other.maxPasses = 2; },
         [](ViewInputs& other) { other.passesPerFrame = 2; },
     };

@@ -2,19 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/ReprojectMode.h"
 
-#include "apps/common/ErrorMeasures.h"
-#include "apps/common/ImageFile.h"
 #include "apps/osgraytracebench/Timing.h"
+#include "apps/osgraytracebench/modes/FrameWalker.h"
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/photons/PhotonPasses.h"
-#include "osgRayTrace/session/view/ViewTracer.h"
-
-#include <osg/Image>
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -29,14 +23,6 @@ using namespace engine;
 constexpr int kWarmUp = 20;  ///< frames before the first that is measured
 constexpr int kMeasured = 2; ///< measured frames, kStride apart
 constexpr int kStride = 7;
-
-/// Returns the CPU time of all threads, which holds no time of other programs on a busy machine.
-double processSeconds()
-{
-    timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// Returns the view of a head that sways and looks around in the box: one to two pixels a frame at
 /// a width of 320.
@@ -107,82 +93,13 @@ std::shared_ptr<const TracedScene> sceneOf(Look look, const std::shared_ptr<Work
     return TracedScene::build(scene, workers);
 }
 
-/// Holds a view that is traced frame by frame.
-struct Walker
-{
-    Walker(const std::shared_ptr<const TracedScene>& scene, const std::shared_ptr<Workers>& workers,
-           bool reproject)
-    {
-        inputs.scene = scene;
-        inputs.workers = workers;
-        inputs.photons = std::make_shared<PhotonPasses>();
-        inputs.options.integrator = IntegratorKind::Path;
-        inputs.reprojects = reproject;
-        inputs.maxPasses = 1 << 20;
-    }
-
-    /// Traces and shows a frame; returns its CPU seconds.
-    double show(const View& view)
-    {
-        rgba.resize(4 * static_cast<std::size_t>(view.width) *
-                    static_cast<std::size_t>(view.height));
-        depth.resize(rgba.size() / 4);
-        const double begin = processSeconds();
-        tracer.trace(inputs, view, {}, rgba.data(), depth.data());
-        if (tracer.needsResolve(inputs)) tracer.resolve(rgba.data(), depth.data());
-        return processSeconds() - begin;
-    }
-
-    ViewInputs inputs;
-    ViewTracer tracer;
-    std::vector<uint8_t> rgba;
-    std::vector<float> depth;
-};
-
-std::vector<float> referenceOf(const std::shared_ptr<const TracedScene>& scene,
-                               const std::shared_ptr<Workers>& workers, const View& view,
-                               int passes)
-{
-    RenderSession session(workers);
-    session.setScene(scene);
-    session.setView(view);
-    RenderOptions options;
-    options.integrator = IntegratorKind::Path;
-    options.seed = 7;
-    session.setOptions(options);
-    StopRule rule;
-    rule.passes = passes;
-    session.render(rule);
-    return session.resolveRadiance();
-}
-
-double relMse(const std::vector<float>& picture, const std::vector<float>& reference)
-{
-    app::ErrorSum sum;
-    for (std::size_t i = 0; i < picture.size(); ++i)
-        if (i % 4 != 3) sum.add(picture[i], reference[i]);
-    return sum.measures().relMse;
-}
-
-void write(const std::string& file, const View& view, const std::vector<float>& picture)
-{
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(view.width, view.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    for (std::size_t i = 0; i < picture.size() / 4; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            image->data()[3 * i + c] = static_cast<unsigned char>(
-                255.0 *
-                    std::pow(std::min(1.0, std::max(0.0, double(picture[4 * i + c]))), 1.0 / 2.2) +
-                0.5);
-    app::writeImageFile(file, *image);
-}
-
 void measureErrors(Rows& rows, const ReprojectOptions& options, const std::string& name, Look look,
                    bool goal)
 {
     const auto workers = std::make_shared<Workers>();
     const auto scene = sceneOf(look, workers);
-    Walker with(scene, workers, true), without(scene, workers, false);
+    FrameWalker with(scene, workers), without(scene, workers);
+    with.inputs.reprojects = true;
     double errorWith = 0.0, errorWithout = 0.0, secondsWith = 0.0, secondsWithout = 0.0;
     for (int frame = 0, measured = 0; measured < kMeasured; ++frame)
     {
@@ -192,17 +109,17 @@ void measureErrors(Rows& rows, const ReprojectOptions& options, const std::strin
         if (frame < kWarmUp + kStride * measured) continue;
         ++measured;
         const std::vector<float> reference = referenceOf(scene, workers, view, options.references);
-        errorWith += relMse(with.tracer.radiance(), reference) / kMeasured;
-        errorWithout += relMse(without.tracer.radiance(), reference) / kMeasured;
+        errorWith += relMseOf(with.tracer.radiance(), reference) / kMeasured;
+        errorWithout += relMseOf(without.tracer.radiance(), reference) / kMeasured;
         if (measured < kMeasured || options.pictures.empty()) continue;
         const std::string stem = options.pictures + "/" + name + "-";
-        write(stem + "with.png", view, with.tracer.radiance());
-        write(stem + "without.png", view, without.tracer.radiance());
-        write(stem + "reference.png", view, reference);
+        writePicture(stem + "with.png", view, with.tracer.radiance());
+        writePicture(stem + "without.png", view, without.tracer.radiance());
+        writePicture(stem + "reference.png", view, reference);
         std::vector<float> difference = with.tracer.radiance();
         for (std::size_t i = 0; i < difference.size(); ++i)
             difference[i] = 0.5f + difference[i] - reference[i];
-        write(stem + "difference.png", view, difference);
+        writePicture(stem + "difference.png", view, difference);
     }
     // In the time that a frame takes with reprojection there would be more passes without it.
     const double passes = secondsWith / secondsWithout;
@@ -222,8 +139,9 @@ void measureCosts(Rows& rows, int threads)
 {
     const auto workers = std::make_shared<Workers>(threads);
     const auto scene = sceneOf(Look::Diffuse, workers);
-    Walker with(scene, workers, true), without(scene, workers, false);
-    for (Walker* walker : {&with, &without})
+    FrameWalker with(scene, workers), without(scene, workers);
+    with.inputs.reprojects = true;
+    for (FrameWalker* walker : {&with, &without})
         walker->inputs.options.integrator = IntegratorKind::Whitted;
     std::vector<double> carried, shares, added, plain;
     for (int frame = 0; frame < 8; ++frame)

@@ -136,6 +136,7 @@ void setInputs(ViewInputs& inputs, const RayTraceSettings& settings)
     inputs.exposureEv = settings.getExposure();
     inputs.denoise = denoiseKind(settings);
     inputs.reprojects = settings.getReproject();
+    inputs.keepsUnchanged = settings.getKeepUnchanged();
     inputs.maxPasses = settings.getMaxPasses();
     inputs.passesPerFrame = settings.getPassesPerFrame();
 }

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/history/ViewHistory.h"
 
+#include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/history/KeptSamples.h"
 
 #include <algorithm>
 #include <chrono>
@@ -44,7 +47,7 @@ float turnOf(const View& a, const View& b)
 /// Returns the number of samples that the history still counts as.
 OSGRAYTRACE_INLINE float fadedCount(float count, float passes)
 {
-    const float faded = count - 0.5f * (passes - 1.0f);
+    const float faded = count - 0.5f * (passes > 1.0f ? passes - 1.0f : 0.0f);
     return faded > 0.0f ? faded : 0.0f;
 }
 
@@ -96,8 +99,9 @@ void estimateErrors(const float* history, const float* count, float passes, cons
         const float scale = std::sqrt(h * passes) / (h + passes);
         for (std::size_t c = 0; c < 3; ++c)
         {
-            const float film = radiance[4 * i + c];
-            error[3 * i + c] = h > 0.0f ? scale * std::fabs(history[4 * i + c] - film) : film;
+            const float film = radiance[4 * i + c], old = history[4 * i + c];
+            const float known = passes > 0.0f ? scale * std::fabs(old - film) : old / std::sqrt(h);
+            error[3 * i + c] = h > 0.0f ? known : film;
         }
     }
 }
@@ -121,55 +125,144 @@ ViewDependence viewDependence(const Scene& scene)
     return result;
 }
 
+namespace
+{
+
+/// Returns the passes of all tiles of the session's image together.
+int64_t allPasses(const RenderSession& session)
+{
+    int64_t sum = 0;
+    const int tiles = tilesAlong(session.width()) * tilesAlong(session.height());
+    for (int tile = 0; tile < tiles; ++tile)
+        sum += session.tilePasses(tile);
+    return sum;
+}
+
+/// Calls body(first pixel, pixels, passes) for the parts of rows of the image whose tiles have the
+/// same number of passes.
+template <class Body>
+void forEachPart(const RenderSession& session, std::size_t firstRow, std::size_t endRow,
+                 const Body& body)
+{
+    const auto width = static_cast<std::size_t>(session.width());
+    const int across = tilesAlong(session.width());
+    for (std::size_t y = firstRow; y < endRow; ++y)
+    {
+        const int row = static_cast<int>(y) / kTileSize * across;
+        for (int begin = 0, end = 1; begin < across; begin = end++)
+        {
+            const int passes = session.tilePasses(row + begin);
+            while (end < across && session.tilePasses(row + end) == passes)
+                ++end;
+            const std::size_t left = static_cast<std::size_t>(begin) * kTileSize;
+            const std::size_t right = std::min(width, static_cast<std::size_t>(end) * kTileSize);
+            body(y * width + left, right - left, static_cast<float>(passes));
+        }
+    }
+}
+
+} // namespace
+
 /// Blends film and history to _blended, and to the display if there is one.
 void ViewHistory::blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
                             float* depth)
 {
     const auto width = static_cast<std::size_t>(session.width());
-    const int passes = session.progress().passes;
-    const bool blends = counts(passes);
+    const bool blends = counts(session.progress().passes);
     _blended.resize(4 * width * static_cast<std::size_t>(session.height()));
     session.resolveRows(_blended.data(), depth,
                         [&](std::size_t first, std::size_t end)
                         {
                             const std::size_t pixel = first * width, pixels = (end - first) * width;
-                            float* radiance = &_blended[4 * pixel];
-                            if (blends)
-                                blendPixels(&_history.radiance[4 * pixel], &_history.count[pixel],
-                                            static_cast<float>(passes), pixels, radiance);
+                            const auto blendPart = [&](std::size_t i, std::size_t n, float passes) {
+                                blendPixels(&_history.radiance[4 * i], &_history.count[i], passes,
+                                            n, &_blended[4 * i]);
+                            };
+                            if (blends) forEachPart(session, first, end, blendPart);
                             if (toneMap)
-                                displayPixels(radiance, pixels, toneMap->exposureEv,
+                                displayPixels(&_blended[4 * pixel], pixels, toneMap->exposureEv,
                                               rgba + 4 * pixel);
                         });
-    _blendedPasses = passes;
+    _blendedPasses = allPasses(session);
+}
+
+/// Takes the samples of the session's image and of the history to _left.
+void ViewHistory::takeSamples(const RenderSession& session, const Workers& workers)
+{
+    if (_blendedPasses == 0 || _blendedPasses != allPasses(session))
+        blendRows(session, nullptr, nullptr, nullptr);
+    _blendedPasses = 0;
+    _left.width = session.width();
+    _left.height = session.height();
+    _left.radiance.swap(_blended);
+    _left.count.resize(_left.radiance.size() / 4);
+    const bool blends = counts(session.progress().passes);
+    const auto takePart = [&](std::size_t pixel, std::size_t pixels, float passes)
+    {
+        std::fill_n(&_left.count[pixel], pixels, passes);
+        if (blends) addFaded(&_history.count[pixel], passes, pixels, &_left.count[pixel]);
+    };
+    forEachRows(workers, session.height(),
+                [&](std::size_t first, std::size_t end)
+                { forEachPart(session, first, end, takePart); });
 }
 
 void ViewHistory::leave(RenderSession& session, const View& view, const Workers& workers)
 {
     const Clock::time_point begin = Clock::now();
-    const int passes = session.progress().passes;
-    if (_taken && passes == 0) return; // the samples of the view before are still on their way
+    if (_taken && session.progress().passes == 0)
+        return; // the samples of the view before are still on their way
     _taken = false;
     if (!session.surfaces().isOf(view)) return drop();
-    const auto width = static_cast<std::size_t>(view.width);
-    const float n = static_cast<float>(passes);
-    if (_blendedPasses != passes) blendRows(session, nullptr, nullptr, nullptr);
-    _blendedPasses = 0;
-    _left.width = view.width;
-    _left.height = view.height;
-    _left.radiance.swap(_blended);
-    _left.count.resize(width * static_cast<std::size_t>(view.height));
-    const bool blends = counts(passes);
-    forEachRows(workers, view.height,
-                [&](std::size_t first, std::size_t end)
-                {
-                    const std::size_t pixel = first * width, pixels = (end - first) * width;
-                    std::fill_n(&_left.count[pixel], pixels, n);
-                    if (blends) addFaded(&_history.count[pixel], n, pixels, &_left.count[pixel]);
-                });
+    takeSamples(session, workers);
     _leftView = view;
     _taken = true;
     _seconds = secondsSince(begin);
+}
+
+bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float most,
+                       const Workers& workers)
+{
+    constexpr double kLeastShare = 0.25; // of pixels: fewer are not worth it
+    const Clock::time_point begin = Clock::now();
+    takeSamples(session, workers);
+    for (float& count : _left.count)
+        count = std::min(count, most);
+    limitKept(session.firstSurfaces(), session.imageScene().scene(), session.imageLights(), change,
+              workers, _left.count);
+    const std::ptrdiff_t lost = std::count(_left.count.begin(), _left.count.end(), 0.0f);
+    const double share = 1.0 - static_cast<double>(lost) / static_cast<double>(_left.count.size());
+    if (share < kLeastShare)
+    {
+        drop();
+        return false;
+    }
+    std::swap(_history, _left);
+    _taken = false;
+    _isKept = true;
+    _most = most;
+    _share = share;
+    findLacking(session);
+    _seconds = secondsSince(begin);
+    return true;
+}
+
+void ViewHistory::findLacking(const RenderSession& session)
+{
+    const auto width = static_cast<std::size_t>(session.width());
+    const auto across = static_cast<std::size_t>(tilesAlong(session.width()));
+    _lacking.assign(across * static_cast<std::size_t>(tilesAlong(session.height())), 0);
+    for (std::size_t i = 0; i < _history.count.size(); ++i)
+        if (_history.count[i] == 0.0f)
+            _lacking[i / width / kTileSize * across + i % width / kTileSize] = 1;
+}
+
+bool ViewHistory::isWhole(const RenderSession& session) const
+{
+    if (!_isKept) return false;
+    for (std::size_t tile = 0; tile < _lacking.size(); ++tile)
+        if (_lacking[tile] && session.tilePasses(static_cast<int>(tile)) == 0) return false;
+    return true;
 }
 
 void ViewHistory::enter(RenderSession& session, const View& view, const ViewDependence& dependence,
@@ -189,6 +282,8 @@ void ViewHistory::enter(RenderSession& session, const View& view, const ViewDepe
     limits.count = kMostCount * static_cast<float>(std::min(1.0, sizes));
     limits.edgeCount = std::min(limits.edgeCount, limits.count);
     if (dependence.axes) limits.turn = turnOf(from.view, view);
+    _isKept = false;
+    _most = kMostCount;
     _share = reproject(_left, from, to, limits, workers, _history);
     _seconds += secondsSince(begin);
 }
@@ -198,27 +293,28 @@ void ViewHistory::drop()
     *this = ViewHistory();
 }
 
-void ViewHistory::blend(ResolvedImage& image, int passes, const Workers& workers) const
+void ViewHistory::blend(const RenderSession& session, ResolvedImage& image,
+                        const Workers& workers) const
 {
-    if (!counts(passes) || image.width != _history.width || image.height != _history.height) return;
-    const auto width = static_cast<std::size_t>(image.width);
-    const float n = static_cast<float>(passes);
+    if (!counts(session.progress().passes)) return;
+    if (image.width != _history.width || image.height != _history.height) return;
     const bool estimated = image.error.empty();
-    if (estimated) image.error.resize(3 * width * static_cast<std::size_t>(image.height));
+    if (estimated) image.error.resize(3 * _history.count.size());
+    const auto blendPart = [&](std::size_t pixel, std::size_t pixels, float passes)
+    {
+        const float* history = &_history.radiance[4 * pixel];
+        const float* count = &_history.count[pixel];
+        float* radiance = &image.radiance[4 * pixel];
+        float* error = &image.error[3 * pixel];
+        if (estimated)
+            estimateErrors(history, count, passes, radiance, pixels, error);
+        else if (!_isKept)
+            scaleErrors(count, passes, pixels, error);
+        blendPixels(history, count, passes, pixels, radiance);
+    };
     forEachRows(workers, image.height,
                 [&](std::size_t first, std::size_t end)
-                {
-                    const std::size_t pixel = first * width, pixels = (end - first) * width;
-                    const float* history = &_history.radiance[4 * pixel];
-                    const float* count = &_history.count[pixel];
-                    float* radiance = &image.radiance[4 * pixel];
-                    float* error = &image.error[3 * pixel];
-                    if (estimated)
-                        estimateErrors(history, count, n, radiance, pixels, error);
-                    else
-                        scaleErrors(count, n, pixels, error);
-                    blendPixels(history, count, n, pixels, radiance);
-                });
+                { forEachPart(session, first, end, blendPart); });
 }
 
 void ViewHistory::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,

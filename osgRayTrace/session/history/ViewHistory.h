@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/session/history/Reprojection.h"
+#include "osgRayTrace/session/history/SceneChange.h"
 #include "osgRayTrace/session/image/ResolvedImage.h"
 
 namespace osgRayTrace::engine
@@ -21,23 +22,25 @@ struct ViewDependence
 };
 ViewDependence viewDependence(const Scene& scene);
 
-/// Holds the part of a view's image that comes from earlier views, beside the session's film, which
-/// begins anew with each view. The displayed image is
+/// Holds the part of a view's image that comes from earlier views, or from earlier versions of the
+/// scene, beside the session's film, which begins anew with each of them. The displayed image is
 ///
-///   (h history + n film) / (h + n),   h = max(0, count - (n - 1) / 2),
+///   (h history + n film) / (h + n),   h = max(0, count - max(0, n - 1) / 2),
 ///
 /// Here n is the number of the film's passes and count the number of the history's samples of the
 /// pixel. While the view moves, the image is therefore the mean of all samples. At rest each
-/// further pass takes the weight of half a sample from the history. From pass 2 kMostCount + 1 on,
-/// and earlier if the history holds less, the image is the film's own.
+/// further pass takes the weight of half a sample from the history. From pass 2 m + 1 on, where m
+/// is the largest count, and earlier if the history holds less, the image is the film's own.
 ///
-/// A history belongs to one scene, one set of options, and sessions that keep the surfaces of their
-/// samples. Whoever renders calls leave and enter only if nothing but the view or its size changes,
-/// and drop if anything else does. A history is not thread safe; each session has its own.
+/// A history belongs to one set of options, and sessions that keep the surfaces of their samples.
+/// Whoever renders calls leave and enter only if nothing but the view or its size changes, keep if
+/// nothing but the scene does, and drop if anything else does. A history is not thread safe; each
+/// session has its own.
 class ViewHistory
 {
 public:
-    static constexpr float kMostCount = 32.0f; ///< samples a pixel
+    static constexpr float kMostCount = 32.0f; ///< samples a pixel of an earlier view
+    static constexpr float kMostKept = 64.0f;  ///< samples a pixel of an earlier scene
 
     /// Takes the samples of the session's image, which is of this view, before the image is begun
     /// anew for another view.
@@ -51,19 +54,35 @@ public:
     void enter(RenderSession& session, const View& view, const ViewDependence& dependence,
                const Workers& workers);
 
+    /// Takes the samples of the session's image, before the image is begun anew for the same view
+    /// of a scene that differs by the change, as far as they may be kept: see KeptSamples.h.
+    /// most: largest count. Returns false, and drops all, if few pixels keep any.
+    bool keep(RenderSession& session, const SceneChange& change, float most,
+              const Workers& workers);
+
+    /// Returns whether the history is of an earlier version of the scene.
+    bool isKept() const { return _isKept; }
+
+    /// Returns a mark for each tile of the session's image that has pixels without kept samples.
+    const std::vector<uint8_t>& lackingTiles() const { return _lacking; }
+
+    /// Returns whether kept samples and the passes of tiles together make a whole image.
+    bool isWhole(const RenderSession& session) const;
+
     void drop();
 
     /// Returns whether the history adds to an image of so many passes.
     bool counts(int passes) const
     {
-        return _share > 0.0 && static_cast<float>(passes - 1) < 2.0f * kMostCount;
+        return _share > 0.0 && static_cast<float>(passes - 1) < 2.0f * _most;
     }
 
-    /// Adds the history to the image of the session's film, which has so many passes, and sets its
-    /// errors to those of all samples together. Below two passes the error is estimated by how film
-    /// and history differ. Pixels without history then have no known error, and it is set as large
-    /// as the radiance.
-    void blend(ResolvedImage& image, int passes, const Workers& workers) const;
+    /// Adds the history to the image of the session's film, and sets its errors to those of all
+    /// samples together; kept samples, which may be stale, leave the errors of the film. Below two
+    /// passes the error is estimated by how film and history differ. Pixels without history then
+    /// have no known error, and it is set as large as the radiance; in tiles without a pass the
+    /// deviation of a sample is taken to be as large as the radiance.
+    void blend(const RenderSession& session, ResolvedImage& image, const Workers& workers) const;
 
     /// Writes the session's image with the history as display values and window depths. This costs
     /// less than blend and presentImage, and half of the next leave's work is then done.
@@ -75,14 +94,19 @@ public:
 private:
     void blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
                    float* depth);
+    void takeSamples(const RenderSession& session, const Workers& workers);
+    void findLacking(const RenderSession& session);
 
     SampledImage _history; ///< history of the present view
     SampledImage _left;    ///< samples that leave took
     View _leftView;
-    /// Mean of film and history for so many passes of the film; 0 passes: not known.
+    /// Mean of film and history for so many passes of the film's tiles; 0 passes: not known.
     std::vector<float> _blended;
-    int _blendedPasses = 0;
-    bool _taken = false; ///< true between leave and enter
+    int64_t _blendedPasses = 0;    ///< summed over the tiles
+    bool _taken = false;           ///< true between leave and enter
+    bool _isKept = false;          ///< whether the history is of an earlier version of the scene
+    float _most = kMostCount;      ///< largest count
+    std::vector<uint8_t> _lacking; ///< 1: the tile has pixels without kept samples
     double _share = 0.0;
     double _seconds = 0.0;
 };

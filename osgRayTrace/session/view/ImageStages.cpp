@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/integrators/shared/IntegratorChoice.h"
 
 #include <algorithm>
 
@@ -41,11 +42,56 @@ void ImageStages::reset(std::shared_ptr<Workers> workers)
     _denoiser.forgetSurfaces();
     _imageScene.reset();
     _history.drop();
+    _isKeeping = false;
+    _versionsKept = _pause = 0;
+}
+
+bool ImageStages::keepView(RenderSession& session, const ImageInputs& next)
+{
+    constexpr int kPause = 30;
+    if (_isKeeping) return true;
+    const std::shared_ptr<const TracedScene> before = _imageScene.lock();
+    const IntegratorKind integrator = session.progress().integrator;
+    const bool samePath =
+        integrator == chooseIntegrator(next.options.integrator, next.scene->traits()) &&
+        (integrator == IntegratorKind::Path || integrator == IntegratorKind::Whitted);
+    const bool hasImage = session.progress().passes > 0 || _history.isKept();
+    const bool mayKeep = _mostKept >= 1.0f && before && before != next.scene && hasImage &&
+                         samePath && next.view == _imageView &&
+                         !next.options.needsRestart(_imageOptions);
+    if (!mayKeep || (_pause > 0 && _pause--)) return false;
+    const std::optional<SceneChange> change = sceneChange(before->scene(), next.scene->scene());
+    if (!change) return false;
+    if (!_history.keep(session, *change, _mostKept, *_workers))
+    {
+        _pause = kPause;
+        return false;
+    }
+    session.setKeepsSurfaces(true);
+    session.setContinuesView(true);
+    session.setSequence(_sequence + 1);
+    _isKeeping = true;
+    ++_versionsKept;
+    return true;
+}
+
+void ImageStages::forgetKept()
+{
+    _history.drop();
+    _isKeeping = false;
+    _versionsKept = 0;
+    _imageScene.reset();
 }
 
 void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 {
+    if (keepView(session, next)) return;
     const bool sameScene = _imageScene.lock() == next.scene;
+    const bool rests = sameScene && next.view == _imageView && _history.isKept();
+    if (rests && _mostKept > 0.0f && !next.options.needsRestart(_imageOptions)) return;
+    if (!rests) _versionsKept = 0;
+    session.setContinuesView(false);
+    if (_history.isKept() && session.progress().passes == 0) _history.drop();
     if (!sameScene) _viewDependence = viewDependence(next.scene->scene());
     const bool keeps = _reprojects && sameScene && !next.options.needsRestart(_imageOptions) &&
                        !_viewDependence.everywhere &&
@@ -62,13 +108,17 @@ void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
                             const RenderProgress& result)
 {
+    const bool kept = _isKeeping;
+    _isKeeping = false;
+    session.setContinuesView(false);
+    if (kept && !result.restarted) forgetKept(); // the image is still the last one
     if (result.restarted) _denoiser.forgetSurfaces();
     if (result.restarted && result.status.code != StatusCode::InvalidView)
     {
         _imageScene = next.scene;
         _imageView = next.view;
         _imageOptions = next.options;
-        if (_history.leaving()) ++_sequence;
+        if (_history.leaving() || kept) ++_sequence;
     }
     if (_history.leaving() && result.passes > 0 && _imageView == next.view)
         _history.enter(session, next.view, _viewDependence, *_workers);
@@ -77,7 +127,7 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
 ResolvedImage ImageStages::staged(const RenderSession& session)
 {
     ResolvedImage image = session.resolvedImage();
-    if (historyCounts(session)) _history.blend(image, session.progress().passes, *_workers);
+    if (historyCounts(session)) _history.blend(session, image, *_workers);
     if (!denoises()) return image;
     const double begin = _now();
     const auto surfaces = [&session]() -> const std::vector<SurfaceSample>&

@@ -35,6 +35,9 @@ public:
     void reset(std::shared_ptr<Workers> workers);
 
     void setReprojects(bool reprojects) { _reprojects = reprojects; }
+
+    /// Sets how many samples of earlier versions of the scene a pixel may keep; 0: none.
+    void setMostKept(float most) { _mostKept = most; }
     void setDenoise(DenoiseKind kind) { _denoise = kind; }
     DenoiseKind denoise() const { return _denoise; }
     bool denoises() const { return _denoise != DenoiseKind::Off; }
@@ -42,6 +45,21 @@ public:
     /// These functions are called before and after session.render(): they take what the session's
     /// image is worth to the next image, if nothing but the view changes.
     void leaveView(RenderSession& session, const ImageInputs& next);
+
+    /// Keeps what the session's image is worth to the same view of another version of the scene, if
+    /// anything: then the session's next render() is of these inputs. Returns false if the image
+    /// has to begin anew.
+    bool keepView(RenderSession& session, const ImageInputs& next);
+
+    /// Returns a mark for each tile that has pixels without kept samples.
+    const std::vector<uint8_t>& lackingTiles() const { return _history.lackingTiles(); }
+
+    /// Gives up what keepView kept.
+    void forgetKept();
+
+    /// Returns in how many versions of the scene one after the other samples were kept.
+    int versionsKept() const { return _versionsKept; }
+
     void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
 
     /// changes() returns true if the image that is shown is not the session's image as it is.
@@ -51,6 +69,10 @@ public:
         return denoises() || historyCounts(session);
     }
     bool willChange() const { return denoises() || _history.leaving(); }
+
+    /// Returns whether the session's image, although it has no whole pass, is whole by what was
+    /// kept.
+    bool isWhole(const RenderSession& session) const { return _history.isWhole(session); }
 
     /// These functions give the session's image as it is shown: radiance() returns linear RGBA;
     /// show() writes display values and window depths, of the image's size.
@@ -80,7 +102,7 @@ private:
     bool historyCounts(const RenderSession& session) const
     {
         const int passes = session.progress().passes;
-        return passes > 0 && _history.counts(passes);
+        return _history.counts(passes) && (passes > 0 || _history.isWhole(session));
     }
     ResolvedImage staged(const RenderSession& session);
     void forgetEdges();
@@ -97,6 +119,10 @@ private:
     uint32_t _sequence = 0; ///< sequence of random numbers: each view that is left gets another one
     ViewDependence _viewDependence;
     ViewHistory _history;
+    float _mostKept = 0.0f;
+    bool _isKeeping = false; ///< true between keepView and enterView
+    int _versionsKept = 0;
+    int _pause = 0; ///< versions of the scene for which nothing is tried, as little was kept
 
     DenoiseKind _denoise = DenoiseKind::Off;
     Denoiser _denoiser;

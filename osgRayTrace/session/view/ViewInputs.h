@@ -27,6 +27,9 @@ struct ViewInputs
     DenoiseKind denoise = DenoiseKind::Off;
     bool reprojects =
         false; ///< whether a view that moves takes along what its image has accumulated
+    /// Whether a view that does not move keeps what it has accumulated where nothing near has
+    /// changed, if little changes in the scene.
+    bool keepsUnchanged = false;
     int maxPasses = 1;
     int passesPerFrame = 1; ///< passes of a frame without a budget
 };

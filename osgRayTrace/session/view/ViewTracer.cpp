@@ -67,6 +67,7 @@ bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
     if (!sameButForRounding(pass, _view))
     {
         _view = pass;
+        _triedWhole = false;
         moved = true;
     }
     _maxPasses = inputs.maxPasses;
@@ -93,6 +94,7 @@ bool ViewTracer::trace(const ViewInputs& inputs, const View& pass, const FrameBu
     _upsampleBudget = budget.upsampleShare * budget.seconds;
     const FrameAgreement::Part agreed = joinFrame(budget, moved);
     _upsampleBudget *= agreed.share;
+    setMostKept(inputs.keepsUnchanged);
     if (moved) chooseUpsampling(_upsampleBudget);
     if (moved) _upsampleDivider = _agreement ? agreed.work.upsampleDivider : _ownUpsampleDivider;
     _frame.traceSeconds = 0.0;
@@ -113,6 +115,15 @@ bool ViewTracer::trace(const ViewInputs& inputs, const View& pass, const FrameBu
     _presentCost = presentCostOfFrame();
     _traceEnd = _now();
     return _written;
+}
+
+/// Samples that are kept of earlier scenes have faded by the last pass. Views that agree keep none:
+/// how many tiles a frame has time for differs from view to view.
+void ViewTracer::setMostKept(bool keeps)
+{
+    const float most = std::min(ViewHistory::kMostKept, 0.5f * static_cast<float>(_maxPasses - 1));
+    _stages.setMostKept(keeps && !_agreement ? most : 0.0f);
+    _reducedStages.setMostKept(keeps && !_agreement ? most : 0.0f);
 }
 
 void ViewTracer::setDenoise(DenoiseKind kind)
@@ -168,7 +179,8 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     _holdsFull = _written;
     if (_written)
         _imageChanged = false;
-    else if (result.passes > 0 || !denoises()) // single tiles cannot be denoised, and are not seen
+    else if (result.passes > 0 || stages.isWhole(session) ||
+             !denoises()) // single tiles cannot be denoised, and are not seen
         _imageChanged = true;
     if (_written)
     {
@@ -209,8 +221,7 @@ ViewProgress ViewTracer::progress() const
     progress.relativeError = _displayState == DisplayState::Whole
                                  ? _relativeError
                                  : std::numeric_limits<double>::infinity();
-    const ImageStages& stages = _displayState == DisplayState::Whole ? _stages : _reducedStages;
-    progress.stages = stages.report(image());
+    progress.stages = imageStages().report(image());
     return progress;
 }
 

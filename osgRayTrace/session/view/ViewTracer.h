@@ -49,6 +49,11 @@ struct FrameBudget
 /// other session adds tiles of full resolution, as many in each frame as there is time for, which
 /// are shown over the enlarged last image; then it adds passes.
 ///
+/// A view that rests while little changes in the scene goes on at full resolution: the image keeps
+/// its samples where nothing near has changed, see ImageStages::keepView. A frame traces the tiles
+/// that have pixels without kept samples, then others as long as there is time. If there is no time
+/// for the former, the view is one that moves.
+///
 /// With an agreement the tracer does the same, but the agreement tells how much is traced, and no
 /// clock ends the tracing.
 class ViewTracer
@@ -106,7 +111,8 @@ public:
 
     bool hasImage() const
     {
-        return _session && image().width() > 0 && image().progress().passes > 0;
+        return _session && image().width() > 0 &&
+               (image().progress().passes > 0 || imageStages().isWhole(image()));
     }
 
     /// Returns linear RGBA of the last whole image as it is shown, width() * height() pixels.
@@ -155,6 +161,8 @@ private:
     double secondsLeft() const { return _begin + _deadline - _now(); }
     void traceFixed(int passes);
     void traceMoved(FrameSituation frame, double budget);
+    bool traceKept(FrameSituation frame, double budget);
+    bool beginsWhole(const FrameSituation& frame);
     bool traceImage(const FramePlan& plan, const FrameSituation& frame, bool mayGiveUp);
     void traceStill(FrameSituation frame);
     void traceAgreed(bool moved, FrameWork work, double budget);
@@ -170,10 +178,16 @@ private:
     void enlargeReduced(uint8_t* rgba, float* depth);
 
     void setDenoise(DenoiseKind kind);
+    void setMostKept(bool keeps);
     bool denoises() const { return _stages.denoises(); }
     ImageStages& stagesOf(const RenderSession& session)
     {
         return &session == _session.get() ? _stages : _reducedStages;
+    }
+
+    const ImageStages& imageStages() const
+    {
+        return _displayState == DisplayState::Whole ? _stages : _reducedStages;
     }
 
     /// Returns the cost of presenting a reduced image of this divider.
@@ -209,7 +223,8 @@ private:
     std::shared_ptr<const TracedScene> _scene;
     RenderOptions _options;
     int _maxPasses = 1;
-    int _stillFrames = 0; ///< frames since any of these changed
+    int _stillFrames = 0;     ///< frames since any of these changed
+    bool _triedWhole = false; ///< whether beginsWhole() has been true since the view moved
     Status _status;
 
     double _relativeError = std::numeric_limits<double>::infinity();

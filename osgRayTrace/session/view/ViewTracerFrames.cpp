@@ -114,10 +114,52 @@ void ViewTracer::traceBudgeted(const FrameBudget& budget, bool moved)
     frame.degrade = budget.degrade;
     setDeadline(budget.seconds, moved, expectedPresentCost(moved));
     frame.seconds = secondsLeft();
+    if (moved && traceKept(frame, budget.seconds)) return;
     if (moved)
         traceMoved(frame, budget.seconds);
     else
         traceStill(frame);
+}
+
+/// Traces tiles of full resolution over what the image keeps of the scene's last version. Returns
+/// false if nothing is kept, or if there is no time for all tiles that lack kept samples.
+bool ViewTracer::traceKept(FrameSituation frame, double budget)
+{
+    constexpr double kMostShare = 0.9; // of the frame, for tiles that lack kept samples
+    if (_displayState != DisplayState::Whole || !_planner.knowsCosts()) return false;
+    if (!_stages.keepView(*_session, {_scene, _view, _options})) return false;
+    const std::vector<uint8_t>& lacking = _stages.lackingTiles();
+    const auto needed = static_cast<int>(std::count(lacking.begin(), lacking.end(), uint8_t(1)));
+    setDeadline(budget, true, PresentCost::Whole);
+    frame.seconds = secondsLeft();
+    if (frame.degrade && needed * _planner.tileSeconds(1) > kMostShare * frame.seconds)
+    {
+        _stages.forgetKept();
+        return false;
+    }
+    const double start = _now();
+    StopRule rule;
+    rule.firstTiles = &lacking;
+    rule.shouldStop = [&, start](int tiles, double ahead)
+    { return tiles >= needed && _now() - start + ahead >= frame.seconds; };
+    frame.moved = false;
+    rule.newPasses = _planner.plan(frame).passes;
+    addToImage(rule);
+    return true;
+}
+
+/// Returns whether a view that rests takes one whole pass of full resolution although there is no
+/// time for one: the scene has changed a little in each of the last frames, and would go on to do
+/// so. The following frames keep what that pass has traced.
+bool ViewTracer::beginsWhole(const FrameSituation& frame)
+{
+    constexpr double kLongest = 12.0; // frames
+    const double seconds = _planner.tileSeconds(1) * tilesOf(frame.width, frame.height);
+    if (_triedWhole || seconds > kLongest * frame.seconds ||
+        _reducedStages.versionsKept() < kSettling)
+        return false;
+    _triedWhole = true;
+    return true;
 }
 
 /// Traces one whole pass at least, at whatever resolution.
@@ -125,12 +167,16 @@ void ViewTracer::traceMoved(FrameSituation frame, double budget)
 {
     const bool guessed = frame.degrade && !_planner.knowsCosts();
     FramePlan plan = _planner.plan(frame);
-    if (plan.divider > 1)
+    const bool whole =
+        plan.divider > 1 && _displayState == DisplayState::Reduced && beginsWhole(frame);
+    if (whole)
+        plan = FramePlan();
+    else if (plan.divider > 1)
     {
         setDeadline(budget, true, presentCostOf(plan.divider));
         frame.seconds = secondsLeft();
     }
-    bool traced = traceImage(plan, frame, frame.degrade);
+    bool traced = traceImage(plan, frame, frame.degrade && !whole);
     if (!traced && _status.ok())
     {
         frame.seconds = secondsLeft();
@@ -205,7 +251,7 @@ void ViewTracer::addToImage(StopRule& rule)
     const RenderProgress result = render(*_session, 1, rule, addsToDisplay ? &_display : nullptr);
     if (!result.status.ok()) return;
     const DisplayState before = _displayState;
-    if (result.passes > 0)
+    if (result.passes > 0 || _stages.isWhole(*_session))
         _displayState = DisplayState::Whole;
     else if (result.newTiles > 0)
         _displayState = DisplayState::Mixed;
