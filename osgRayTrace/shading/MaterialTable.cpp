@@ -68,6 +68,28 @@ double highlightReflectance(double shininess)
     return alpha2 / mean;
 }
 
+/// Adds a highlight of OpenGL's to a Lambert base. With light at the eye a highlight of exponent s
+/// is cos^s, so a Lambert lobe is the very highlight for s = 1, and GGX the better likeness the
+/// narrower it is: a share of 1/s^2 is Lambert's, of albedo 3/(s+2), which has the same mean. If
+/// more light would be reflected than arrives, the GGX lobe gives way, down to kLeastHighlight, and
+/// then what is diffuse.
+void addHighlight(Bsdf& bsdf, Vec3 color, float shininess)
+{
+    const float brightest = maxComponent(color);
+    if (!(brightest > 0.0f)) return;
+    const float broad = 1.0f / std::max(shininess, 1.0f), diffuseShare = broad * broad;
+    bsdf.diffuse += color * (diffuseShare * 3.0f / (shininess + 2.0f));
+    const float base = maxComponent(bsdf.diffuse);
+    const float wanted =
+        brightest * (1.0f - diffuseShare) * static_cast<float>(highlightReflectance(shininess));
+    if (wanted > 0.0f)
+    {
+        bsdf.grazing = std::min(wanted, std::max(1.0f - base, kLeastHighlight));
+        bsdf.reflectance = color * (bsdf.grazing / brightest);
+    }
+    if (base > 1.0f - bsdf.grazing) bsdf.diffuse *= (1.0f - bsdf.grazing) / base;
+}
+
 /// Returns the factor by which texture environments change the light of a fixed-function surface:
 /// they are linear in it.
 Vec3 textureTint(const TextureTerms& textures)
@@ -192,13 +214,8 @@ Bsdf MaterialTable::fixedFunction(const Material& m, const MaterialPoint& point)
     bsdf.diffuse = diffuse;
     const Vec3 specular = clampUnit(colors.specular);
     if (specular == Vec3(0.0f)) return bsdf;
-    Vec3 highlight = specular * static_cast<float>(highlightReflectance(shininess));
-    if (!m.separateSpecular) highlight *= glm::max(textureTint(terms), 0.0f);
-    const float wanted = maxComponent(highlight), base = maxComponent(diffuse);
-    if (!(wanted > 0.0f)) return bsdf;
-    bsdf.grazing = std::min(wanted, std::max(1.0f - base, kLeastHighlight));
-    bsdf.reflectance = highlight * (bsdf.grazing / wanted);
-    if (base > 1.0f - bsdf.grazing) bsdf.diffuse *= (1.0f - bsdf.grazing) / base;
+    const Vec3 tint = m.separateSpecular ? Vec3(1.0f) : glm::max(textureTint(terms), 0.0f);
+    addHighlight(bsdf, specular * tint, shininess);
     return bsdf;
 }
 

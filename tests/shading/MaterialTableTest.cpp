@@ -122,7 +122,7 @@ TEST_CASE("material: the image of a fixed-function material", "[shading]")
     CHECK(shiny.alpha == Approx(0.25)); // sqrt(2 / 32)
     CHECK(shiny.reflectance.x == Approx(0.5 * 8.0 / 32.0).epsilon(0.1));
     CHECK(shiny.grazing == shiny.reflectance.x);
-    CHECK(shiny.diffuse == material.diffuse);
+    CHECK(shiny.diffuse.x == Approx(0.6 + 0.5 * 3.0 / 32.0 / (30.0 * 30.0)));
     material.lit = false;
     const Scene scene = sceneOf(material);
     const MaterialTable table(scene);
@@ -173,16 +173,34 @@ TEST_CASE("material: a highlight leaves the diffuse colour alone", "[shading]")
                 material.specular = Vec3(specular, specular, 0.0f);
                 material.shininess = shininess;
                 const Bsdf bsdf = bsdfOf(material);
+                const float broad = 1.0f / std::max(shininess, 1.0f);
+                const float wide = specular * 3.0f / (shininess + 2.0f) * broad * broad;
+                const Vec3 diffuse = material.diffuse + Vec3(wide, wide, 0.0f);
                 CAPTURE(base, specular, shininess);
                 CHECK(bsdf.diffuse.x >= std::min(base, 0.96f) - 1e-6f); // left by an index of 1.5
-                CHECK(bsdf.diffuse.y == Approx(0.5f * bsdf.diffuse.x));
-                CHECK((specular == 0.0f || bsdf.grazing >= 0.001f));
+                CHECK(bsdf.diffuse.y * diffuse.x == Approx(bsdf.diffuse.x * diffuse.y));
+                CHECK((specular == 0.0f || shininess <= 1.0f || bsdf.grazing >= 0.001f));
                 CHECK(bsdf.grazing == Approx(std::max(bsdf.reflectance.x, bsdf.reflectance.y)));
                 CHECK(bsdf.diffuse.x + bsdf.grazing <= 1.000001f); // no energy is gained
-                if (base + specular * 4.0f <= 1.0f) CHECK(bsdf.diffuse == material.diffuse);
+                if (base + specular * 4.0f <= 1.0f)
+                    CHECK(glm::length(bsdf.diffuse - diffuse) < 1e-6f);
             }
         }
     }
+}
+
+TEST_CASE("material: a highlight of exponent 1 is a Lambert lobe beside the diffuse one",
+          "[shading]")
+{
+    Material material;
+    material.diffuse = Vec3(0.25f, 0.5f, 0.0f);
+    material.specular = Vec3(0.5f, 0.25f, 0.125f);
+    material.shininess = 1.0f;
+    CHECK(bsdfOf(material).isDiffuse());
+    CHECK(bsdfOf(material).diffuse == material.diffuse + material.specular);
+    material.diffuse = Vec3(1.0f, 0.75f, 0.5f);
+    CHECK(bsdfOf(material).isDiffuse());
+    CHECK(glm::length(bsdfOf(material).diffuse - Vec3(1.0f, 1.0f / 1.5f, 0.625f / 1.5f)) < 1e-6f);
 }
 
 TEST_CASE("material: textures tint highlights as OpenGL does", "[shading]")
