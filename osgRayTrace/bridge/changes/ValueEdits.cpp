@@ -19,7 +19,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     watched.looked = _looks;
     const osg::Geometry& geometry = *watched.geometry;
     if (conversionHash(geometry) != watched.conversion) return false;
-    const uint64_t arrays = arraysHash(geometry);
+    const uint64_t arrays = arraysHash(geometry, _graph.watchesAttributes());
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
