@@ -213,6 +213,27 @@ TEST_CASE("material hook: the application's answer wins, and its exceptions are 
     CHECK(countOf(converter.convert(input), "rasterized.shader-program") == 1);
 }
 
+TEST_CASE("material hook: is asked once for a geometry that OSG draws beside its proxy", "[bridge]")
+{
+    struct Hook : MaterialHook
+    {
+        osg::ref_ptr<PhysicalMaterial>
+        materialFor(const osg::NodePath&, const std::vector<const osg::StateSet*>&) override
+        {
+            ++calls;
+            return nullptr;
+        }
+        int calls = 0;
+    };
+    const ShadedPart shaded;
+    const osg::ref_ptr<Hook> hook = new Hook;
+    ConversionInput input = shaded.input("{}");
+    input.hook = hook;
+    SceneConverter converter;
+    CHECK(countOf(converter.convert(input), "traced.proxy") == 1);
+    CHECK(hook->calls == 1);
+}
+
 TEST_CASE("shader rules: vertex attributes that rules name are watched beside fixed arrays",
           "[bridge]")
 {

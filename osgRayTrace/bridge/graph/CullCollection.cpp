@@ -183,11 +183,15 @@ CullOutcome GraphCollector::cullOutcome()
     return outcome;
 }
 
-std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path)
+std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path,
+                                                         HookAnswers& answers)
 {
     if (!_input.pass || !_input.view || !descendTo(path)) return std::nullopt;
     pushOntoNodePath(path.back());
-    return cullOutcome();
+    _materials.repeatAnswers(answers);
+    CullOutcome outcome = cullOutcome();
+    if (_materials.lacksAnswers()) return std::nullopt;
+    return outcome;
 }
 
 std::optional<uint64_t> GraphCollector::cullSignatureAt(const osg::NodePath& path)
@@ -235,9 +239,13 @@ bool GraphCollector::collectsInCull(osg::Node& node)
     }
     // A cull traversal of so many paths would not end, with this library or without.
     if (_counts.of(node, kMostPaths, kDeepestPath) > kMostPaths) return false;
+    HookAnswers answers;
+    _materials.keepAnswers(&answers);
     CullOutcome outcome = cullOutcome();
     const bool collected = outcome.kind != CullOutcome::Plain;
     if (collected) collectCulled(node, outcome, reason);
+    _materials.keepAnswers(nullptr);
+    outcome.answers = std::move(answers);
     _graph.cullOutcomes.push_back(std::move(outcome));
     return collected;
 }
