@@ -8,12 +8,13 @@
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
+#include "osgRayTrace/bridge/convert/GraphTraits.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
-
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -27,52 +28,6 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 {
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.bounds = &geometries.bounds(*geometry.geometry);
-}
-
-bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
-{
-    if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
-    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
-    for (const CollectedGeometry& geometry : graph.geometries)
-        for (const GeometryUse& use : geometry.uses)
-            if (!use.proxy && graph.states[use.state].attributes[kPhysicalMaterialSlot])
-                return true;
-    return false;
-}
-
-bool setsColor(const CollectedGraph& graph)
-{
-    for (const CollectedGeometry& geometry : graph.geometries)
-        for (const GeometryUse& use : geometry.uses)
-            if (!use.proxy && setsCurrentColor(graph.states[use.state])) return true;
-    return false;
-}
-
-/// Adds geometry that OpenGL draws and that has no proxy. Its place is that of its path, so it may
-/// move without a conversion.
-void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more,
-                 SceneIndex& index)
-{
-    std::vector<const osg::Geometry*> untraced;
-    for (const osg::Geometry* geometry : more)
-        if (!index.geometries.count(geometry)) untraced.push_back(geometry);
-    for (const RasterizedPart& part : parts)
-    {
-        const osg::Geometry* geometry =
-            part.path.empty() ? nullptr : part.path.back()->asGeometry();
-        if (geometry && part.kind == RasterizedPart::Draw && !index.geometries.count(geometry))
-            untraced.push_back(geometry);
-    }
-    for (const osg::Geometry* geometry : untraced)
-        index.at(*geometry).uses.emplace_back();
-}
-
-/// Returns whether a state clips, because the effect of clip planes depends on the place of a
-/// geometry.
-bool hasClipping(const std::vector<GraphState>& states)
-{
-    return std::any_of(states.begin(), states.end(),
-                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
 }
 
 void beginCollection(ConversionCaches& caches)
@@ -211,7 +166,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.texGens = graph.texGens;
     state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown,
                                           input.materials ? input.materials->reads : nullptr);
-    addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
+    state.convertedGraph.index.addUntraced(graph.rasterized, graph.leftGeometries);
     endCollection(state.caches);
 
     result.scene = state.last;
