@@ -3,17 +3,18 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/GraphTraits.h"
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
-#include "osgRayTrace/bridge/pick/PickIndex.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/pick/PickIndex.h"
 
 #include <algorithm>
 #include <chrono>
@@ -76,6 +77,7 @@ struct SceneConverter::Implementation
     uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
     bool ordinary = false;  ///< true: unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
+    ThreadSeam seam;
 };
 
 SceneConverter::SceneConverter() : _implementation(std::make_unique<Implementation>()) {}
@@ -84,6 +86,7 @@ SceneConverter::~SceneConverter() = default;
 
 void SceneConverter::releaseGraph()
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
@@ -96,12 +99,14 @@ void SceneConverter::releaseGraph()
 
 void SceneConverter::forget()
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     _implementation->forgotten = convertedMeshes();
     _implementation->caches = ConversionCaches();
 }
 
 bool SceneConverter::holdsInCull(const ViewingConditions& conditions)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     Implementation& state = *_implementation;
     CullWatch& watch = state.convertedGraph.cullWatch;
     if (watch.isEmpty()) return true;
@@ -121,6 +126,7 @@ uint64_t SceneConverter::convertedMeshes() const
 
 ConversionResult SceneConverter::convert(const ConversionInput& input)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
@@ -182,6 +188,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
 PatchResult SceneConverter::patch(const GraphChanges& changes)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
     const auto refused = [](ConversionCause cause) {
