@@ -37,7 +37,8 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
     const std::size_t count = buffers.size();
     for (std::size_t i = 0; i < count; ++i)
     {
-        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
+        if (_fetchesAhead && i + kAhead < count)
+            fetch(buffers[i + kAhead].data.get(), kBufferBytes);
         WatchedBuffer& buffer = buffers[i];
         const uint64_t hash = bufferHash(buffer.kind, *buffer.data);
         if (hash == buffer.hash) continue;
