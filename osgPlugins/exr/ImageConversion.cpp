@@ -3,9 +3,8 @@
 #include "osgPlugins/exr/ImageConversion.h"
 
 #include "osgPlugins/exr/ExrError.h"
+#include "osgPlugins/exr/ImageLayout.h"
 #include "osgRayTrace/base/NeverDestroyed.h"
-
-#include <osg/Texture>
 
 #include <half.h>
 
@@ -20,51 +19,6 @@ namespace
 
 /// osg::Image counts bytes in 32 bits.
 constexpr std::size_t kMaxImageBytes = 0xffffffff;
-
-/// Tells how an osg::Image stores the channels that a file has under these names.
-struct Layout
-{
-    GLenum pixelFormat;
-    std::vector<std::string> channels;
-    GLint floatTexture = 0; ///< internal format of float images; 0: reading never makes this layout
-    GLint halfTexture = 0;  ///< internal format of half images; images of bytes have pixelFormat
-};
-
-const std::vector<Layout>& layouts()
-{
-    using engine::NeverDestroyed;
-    static const NeverDestroyed<std::vector<Layout>> table(std::vector<Layout>{
-        {GL_RGB, {"R", "G", "B"}, GL_RGB32F_ARB, GL_RGB16F_ARB},
-        {GL_RGBA, {"R", "G", "B", "A"}, GL_RGBA32F_ARB, GL_RGBA16F_ARB},
-        {GL_LUMINANCE, {"Y"}, GL_LUMINANCE32F_ARB, GL_LUMINANCE16F_ARB},
-        {GL_LUMINANCE_ALPHA, {"Y", "A"}, GL_LUMINANCE_ALPHA32F_ARB, GL_LUMINANCE_ALPHA16F_ARB},
-        {GL_ALPHA, {"A"}, GL_ALPHA32F_ARB, GL_ALPHA16F_ARB},
-        {GL_BGR, {"B", "G", "R"}},
-        {GL_BGRA, {"B", "G", "R", "A"}},
-        {GL_RED, {"Y"}},
-        {GL_INTENSITY, {"Y"}},
-        {GL_DEPTH_COMPONENT, {"Y"}},
-    });
-    return *table;
-}
-
-const Layout& layoutOf(GLenum pixelFormat)
-{
-    static const engine::NeverDestroyed<Layout> none(Layout{GL_NONE, {}});
-    for (const Layout& layout : layouts())
-    {
-        if (layout.pixelFormat == pixelFormat) return layout;
-    }
-    return *none;
-}
-
-GLenum formatOf(const ExrImage& image)
-{
-    const bool alpha = image.find("A") != nullptr;
-    if (image.find("R") || image.find("G") || image.find("B")) return alpha ? GL_RGBA : GL_RGB;
-    if (image.find("Y")) return alpha ? GL_LUMINANCE_ALPHA : GL_LUMINANCE;
-    return alpha ? GL_ALPHA : GL_NONE;
-}
 
 float linearFromSrgbByte(unsigned char byte)
 {
@@ -83,12 +37,6 @@ unsigned char srgbByteFromLinear(float linear)
 {
     if (linear <= 0.0031308f) return byteFromUnit(linear * 12.92f);
     return byteFromUnit(1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f);
-}
-
-GLint internalFormat(const Layout& layout, GLenum type)
-{
-    if (type == GL_FLOAT) return layout.floatTexture;
-    return type == GL_HALF_FLOAT ? layout.halfTexture : static_cast<GLint>(layout.pixelFormat);
 }
 
 /// Reads the linear value at an address in an image of a supported type.
@@ -163,7 +111,7 @@ void interleaveAs(GLenum type, const ExrChannel* channel, std::size_t component,
 }
 
 /// Returns all channels of image; the caller has checked that layout and image fit.
-ExrImage deinterleave(const osg::Image& image, const Layout& layout, bool asHalf)
+ExrImage deinterleave(const osg::Image& image, const ImageLayout& layout, bool asHalf)
 {
     ExrImage result;
     result.width = image.s();
@@ -202,7 +150,7 @@ std::string toOsgImage(const ExrImage& image, GLenum type, osg::ref_ptr<osg::Ima
 {
     const GLenum format = formatOf(image);
     if (format == GL_NONE) return "there is none of the channels R, G, B, Y and A";
-    const Layout& layout = layoutOf(format);
+    const ImageLayout& layout = layoutOf(format);
     const std::size_t components = layout.channels.size();
     const std::size_t sizeBytes = components * sizeOf(type) * image.width * image.height;
     if (sizeBytes > kMaxImageBytes) return "an osg::Image cannot be that large";
@@ -212,7 +160,7 @@ std::string toOsgImage(const ExrImage& image, GLenum type, osg::ref_ptr<osg::Ima
         {
             const osg::ref_ptr<osg::Image> made = new osg::Image;
             made->allocateImage(image.width, image.height, 1, format, type);
-            made->setInternalTextureFormat(internalFormat(layout, type));
+            made->setInternalTextureFormat(layout.internalFormat(type));
             for (std::size_t component = 0; component < components; ++component)
             {
                 const ExrChannel* channel = image.find(layout.channels[component]);
@@ -227,7 +175,7 @@ std::string toExrImage(const osg::Image& image, bool asHalf, ExrImage& result)
 {
     if (!image.data() || image.s() < 1 || image.t() < 1) return "the image is empty";
     if (image.r() != 1) return "a 3-D image cannot be written";
-    const Layout& layout = layoutOf(image.getPixelFormat());
+    const ImageLayout& layout = layoutOf(image.getPixelFormat());
     if (layout.channels.empty()) return "this pixel format cannot be written";
     if (sizeOf(image.getDataType()) == 0) return "only float, half and byte pixels can be written";
 

@@ -1,8 +1,8 @@
-// BvhPool.cpp - builds, refits and recycles BVHs. Layer: accel.
+// BvhPool.cpp - recycles BVHs. Layer: accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/BvhPool.h"
 
-#include "osgRayTrace/accel/HitFilter.h"
+#include "osgRayTrace/accel/BvhBuild.h"
 
 namespace osgRayTrace::engine
 {
@@ -11,34 +11,6 @@ namespace
 {
 
 constexpr std::size_t kSpareTopLevels = 2;
-
-GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered)
-{
-    GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               mesh.positions.data(), 0, sizeof(Vec3), mesh.positions.size());
-    rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               mesh.triangles.data(), 0, sizeof(UVec3), mesh.triangles.size());
-    if (filtered) setHitFilter(geometry.get());
-    return geometry;
-}
-
-SceneHandle newScene(RTCDevice device)
-{
-    SceneHandle scene(rtcNewScene(device));
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    return scene;
-}
-
-/// Commits the scene. Throws EngineError if the commit or anything before it failed: Embree would
-/// build a geometry that lacks a buffer for want of memory, and would read from an invalid address.
-void commit(EmbreeDevice& device, RTCScene scene, BuildCounts& counts)
-{
-    device.checkErrors();
-    rtcCommitScene(scene);
-    ++counts.commits;
-    device.checkErrors();
-}
 
 } // namespace
 
@@ -50,56 +22,6 @@ template <class Part> std::shared_ptr<Part> BvhPool::shared(std::unique_ptr<Part
         if (const std::shared_ptr<BvhPool> alive = pool.lock()) alive->giveBack(std::move(owned));
     };
     return {part.release(), giveBackTo};
-}
-
-std::unique_ptr<MeshBvh> BvhPool::build(const std::shared_ptr<const Mesh>& mesh, bool filtered,
-                                        BuildCounts& counts)
-{
-    auto built = std::make_unique<MeshBvh>();
-    built->device = _device;
-    built->mesh = mesh;
-    built->filtered = filtered;
-    built->scene = newScene(_device->handle());
-    const GeometryHandle triangles = newTriangles(_device->handle(), *mesh, filtered);
-    if (mesh->deforms)
-    {
-        // Embree refits only scenes with these settings. The first build has the usual quality.
-        rtcSetSceneFlags(built->scene.get(),
-                         RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
-        rtcSetSceneBuildQuality(built->scene.get(), RTC_BUILD_QUALITY_LOW);
-        rtcSetGeometryBuildQuality(triangles.get(), RTC_BUILD_QUALITY_REFIT);
-        built->triangles = triangles.get();
-        built->quality.emplace(*mesh);
-    }
-    rtcCommitGeometry(triangles.get());
-    rtcAttachGeometry(built->scene.get(), triangles.get());
-    commit(*_device, built->scene.get(), counts);
-    if (!mesh->deforms) built->outline.emplace(*mesh, boundsOf(built->scene.get()));
-    built->serial = ++_serial;
-    ++counts.built;
-    return built;
-}
-
-/// Refits the spare BVH to the mesh. Returns false if the BVH must be built instead.
-bool BvhPool::refit(MeshBvh& spare, const std::shared_ptr<const Mesh>& mesh, bool filtered,
-                    BuildCounts& counts)
-{
-    if (mesh->positions.size() != spare.mesh->positions.size()) return false;
-    if (mesh->triangles.size() != spare.mesh->triangles.size()) return false;
-    if (spare.quality->degradation(*mesh) > kDegraded) return false;
-    spare.sound = false;
-    if (filtered && !spare.filtered) setHitFilter(spare.triangles);
-    spare.filtered |= filtered;
-    rtcSetSharedGeometryBuffer(spare.triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               mesh->positions.data(), 0, sizeof(Vec3), mesh->positions.size());
-    rtcUpdateGeometryBuffer(spare.triangles, RTC_BUFFER_TYPE_VERTEX, 0);
-    rtcCommitGeometry(spare.triangles);
-    commit(*_device, spare.scene.get(), counts);
-    spare.mesh = mesh;
-    spare.serial = ++_serial;
-    spare.sound = true;
-    ++counts.refit;
-    return true;
 }
 
 std::unique_ptr<MeshBvh> BvhPool::spareOf(const UVec3* triangles)
@@ -119,31 +41,24 @@ std::shared_ptr<const MeshBvh> BvhPool::meshBvh(const std::shared_ptr<const Mesh
     if (mesh->deforms)
     {
         std::unique_ptr<MeshBvh> spare = spareOf(mesh->triangles.data());
-        if (spare && refit(*spare, mesh, filtered, counts)) return shared(std::move(spare));
+        if (spare && refitMesh(*spare, mesh, filtered, counts))
+        {
+            spare->serial = ++_serial;
+            return shared(std::move(spare));
+        }
     }
-    return shared(build(mesh, filtered, counts));
+    std::unique_ptr<MeshBvh> built = buildMesh(_device, mesh, filtered, counts);
+    built->serial = ++_serial;
+    return shared(std::move(built));
 }
 
 std::shared_ptr<const StaticBvh> BvhPool::staticBvh(StaticBvh::Members members,
                                                     std::vector<std::shared_ptr<const Mesh>> owners,
                                                     BuildCounts& counts)
 {
-    auto built = std::make_shared<StaticBvh>();
-    built->device = _device;
-    built->members = std::move(members);
-    built->owners = std::move(owners);
-    built->scene = newScene(_device->handle());
-    for (const StaticBvh::Member& member : built->members)
-    {
-        const GeometryHandle triangles =
-            newTriangles(_device->handle(), *member.mesh, member.filtered);
-        rtcCommitGeometry(triangles.get());
-        rtcAttachGeometryByID(built->scene.get(), triangles.get(), member.instance);
-    }
-    commit(*_device, built->scene.get(), counts);
+    const std::shared_ptr<StaticBvh> built =
+        buildStatic(_device, std::move(members), std::move(owners), counts);
     built->serial = ++_serial;
-    counts.built += built->members.size();
-    ++counts.staticBuilds;
     return built;
 }
 
@@ -162,19 +77,7 @@ std::shared_ptr<const TopLevelBvh> BvhPool::topLevel(const std::vector<Placement
         }
     }
     const bool fresh = !topLevel;
-    if (fresh)
-    {
-        topLevel = std::make_unique<TopLevelBvh>();
-        topLevel->device = _device;
-        topLevel->placed = std::make_unique<PlacedScenes>(_device->handle());
-        topLevel->scene = newScene(_device->handle());
-        // Narrow nodes take a third less memory for the top level. Packets go through narrow nodes
-        // faster, by a tenth at best, and single rays go slower by some percent.
-        if (_device->nativeWidth() == 16)
-            rtcSetSceneFlags(topLevel->scene.get(),
-                             RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
-        rtcAttachGeometry(topLevel->scene.get(), topLevel->placed->geometry());
-    }
+    if (fresh) topLevel = newTopLevel(_device);
     topLevel->sound = false;
     topLevel->generation = generation;
     if (topLevel->placed->set(placements) || fresh) commit(*_device, topLevel->scene.get(), counts);

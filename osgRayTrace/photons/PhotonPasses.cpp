@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 
 namespace osgRayTrace::engine
 {
@@ -103,6 +104,7 @@ bool samePhotons(const PhotonScene& a, const PhotonScene& b)
 
 void PhotonPasses::begin(const PhotonScene& scene)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     if (_emitter && samePhotons(scene, _scene)) return;
     _emitter.reset();
     _first.reset();
@@ -123,7 +125,7 @@ void PhotonPasses::begin(const PhotonScene& scene)
 
 PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& workers)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     begin(scene);
     if (_density) return *_density;
     _first = std::make_unique<TracedPhotons>(trace(0, nullptr, workers));
@@ -143,7 +145,7 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
 std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, int index,
                                                      float cellSize, const Workers& workers)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     begin(scene);
     const std::shared_ptr<const PhotonGuide> photonGuide = guideOf(index);
     for (const Entry& entry : _kept)
@@ -169,6 +171,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
 
 TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, const Workers& workers)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     TracedPhotons photons = tracePhotons(*_scene.traced, *_scene.lights, *_emitter, _scene.options,
                                          index, workers, photonGuide);
     _tracedRays += photons.rays;
@@ -179,6 +182,7 @@ TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, con
 /// Returns the guide of a pass; null: the pass is guided by the scene alone.
 std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     if (index < kFirst || !_scene.options.photonGuiding || _seen.empty()) return nullptr;
     if (_photonGuide) return _photonGuide;
     std::vector<uint32_t> emitted(_emitter->guideBins());
@@ -199,7 +203,7 @@ ViewId PhotonPasses::newView()
 
 void PhotonPasses::recordSeen(const PhotonScene& scene, ViewId view, std::vector<double> squares)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     if (!_emitter || !samePhotons(scene, _scene) || squares.size() != _emitter->guideBins()) return;
     _seen.push_back({view, std::move(squares)});
     _photonGuide.reset();
@@ -207,7 +211,7 @@ void PhotonPasses::recordSeen(const PhotonScene& scene, ViewId view, std::vector
 
 void PhotonPasses::forgetSeen(ViewId view)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     const auto gone =
         std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
     if (gone == _seen.end()) return;
@@ -219,6 +223,7 @@ void PhotonPasses::forgetSeen(ViewId view)
 /// all of them.
 void PhotonPasses::keep(Entry entry)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     const auto replaced = std::find_if(
         _kept.begin(), _kept.end(),
         [&](const Entry& e) { return e.index == entry.index && e.cellSize == entry.cellSize; });
@@ -233,6 +238,7 @@ void PhotonPasses::keep(Entry entry)
 
 std::size_t PhotonPasses::keptBytes() const
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     std::size_t sum = 0;
     for (const Entry& entry : _kept)
         sum += entry.pass->map.bytes();
@@ -241,20 +247,20 @@ std::size_t PhotonPasses::keptBytes() const
 
 std::size_t PhotonPasses::bytes() const
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     return keptBytes();
 }
 
 bool PhotonPasses::keeps(int index) const
 {
-    const std::unique_lock<std::mutex> lock(_mutex, std::try_to_lock);
+    const std::unique_lock<CheckedMutex> lock(_mutex, std::try_to_lock);
     return lock && std::any_of(_kept.begin(), _kept.end(),
                                [&](const Entry& e) { return e.index == index; });
 }
 
 uint64_t PhotonPasses::tracedRays() const
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     return _tracedRays;
 }
 

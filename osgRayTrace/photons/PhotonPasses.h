@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/photons/PhotonMap.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 
@@ -9,7 +10,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 
 namespace osgRayTrace::engine
 {
@@ -117,7 +117,7 @@ private:
     void begin(const PhotonScene& scene);
 
     std::atomic<uint64_t> _views{0}; ///< number of names given; views are made while others trace
-    mutable std::mutex _mutex;       // guards everything below
+    mutable CheckedMutex _mutex;     // guards everything below
     PhotonScene _scene;         ///< of all photons below; its lights are the scene's own or _placed
     std::vector<Light> _placed; ///< a copy of the lights unless they are the scene's own
     std::unique_ptr<PhotonEmitter> _emitter; ///< null: there is no scene yet

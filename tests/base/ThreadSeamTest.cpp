@@ -3,55 +3,36 @@
 #include "osgRayTrace/base/ThreadSeam.h"
 
 #include "tests/Catch.h"
+#include "tests/ChildProcess.h"
 
-#include <csignal>
-
-#include <sys/wait.h>
-#include <unistd.h>
-
+using osgRayTrace::test::isAborted;
 using Seam = osgRayTrace::engine::BasicThreadSeam<true>;
 
 namespace
 {
 
-/// Returns the status with which a child process ends that enters a seam twice: at once by two
-/// threads, or one after the other.
-int statusOfTwoThreads(bool atOnce)
+/// Enters a seam twice: at once by two threads, or one after the other.
+void enterTwice(bool atOnce)
 {
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0)
+    Seam seam;
+    const auto enter = [&] { const Seam::Entry entry(seam); };
     {
-        std::signal(SIGABRT, SIG_DFL); // Catch2's handler would report a failed case
-        close(STDERR_FILENO);
-        Seam seam;
-        const auto enter = [&] { const Seam::Entry entry(seam); };
-        {
-            const Seam::Entry first(seam);
-            if (atOnce) std::thread(enter).join();
-        }
-        std::thread(enter).join();
-        _exit(0);
+        const Seam::Entry first(seam);
+        if (atOnce) std::thread(enter).join();
     }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    return status;
+    std::thread(enter).join();
 }
 
 } // namespace
 
 TEST_CASE("a seam lets threads in one after the other", "[base]")
 {
-    const int status = statusOfTwoThreads(false);
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    CHECK_FALSE(isAborted([] { enterTwice(false); }));
 }
 
 TEST_CASE("a seam aborts when a second thread enters", "[base]")
 {
-    const int status = statusOfTwoThreads(true);
-    REQUIRE(WIFSIGNALED(status));
-    CHECK(WTERMSIG(status) == SIGABRT);
+    CHECK(isAborted([] { enterTwice(true); }));
 }
 
 TEST_CASE("a thread may enter its seam again", "[base]")

@@ -212,3 +212,60 @@ TEST_CASE("material hook: the application's answer wins, and its exceptions are 
     input.materials = nullptr;
     CHECK(countOf(converter.convert(input), "rasterized.shader-program") == 1);
 }
+
+TEST_CASE("material hook: is asked once for a geometry that OSG draws beside its proxy", "[bridge]")
+{
+    struct Hook : MaterialHook
+    {
+        osg::ref_ptr<PhysicalMaterial>
+        materialFor(const osg::NodePath&, const std::vector<const osg::StateSet*>&) override
+        {
+            ++calls;
+            return nullptr;
+        }
+        int calls = 0;
+    };
+    const ShadedPart shaded;
+    const osg::ref_ptr<Hook> hook = new Hook;
+    ConversionInput input = shaded.input("{}");
+    input.hook = hook;
+    SceneConverter converter;
+    CHECK(countOf(converter.convert(input), "traced.proxy") == 1);
+    CHECK(hook->calls == 1);
+}
+
+TEST_CASE("shader rules: vertex attributes that rules name are watched beside fixed arrays",
+          "[bridge]")
+{
+    ShadedPart shaded;
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(3);
+    shaded.part->setVertexAttribArray(3, normals, osg::Array::BIND_PER_VERTEX);
+    ViewingConditions conditions;
+    const auto changed = [&](GraphWatch& watch)
+    { return !watch.look(*shaded.model, conditions).none(); };
+    const auto turn = [&](osg::Vec3Array& array)
+    {
+        array[0].z() += 1.0f;
+        array.dirty();
+    };
+
+    GraphWatch plain;
+    plain.record(*shaded.model, conditions);
+    turn(*normals);
+    CHECK_FALSE(changed(plain)); // nobody reads attributes
+
+    const std::string rule = R"({ "shaders": [ { "if": { "program": "Bump" }, "attributes": )";
+    conditions.reads = shaded.input(rule + R"({ "normal": 3 } } ] })").materials->reads;
+    GraphWatch watch;
+    watch.record(*shaded.model, conditions);
+    CHECK_FALSE(changed(watch));
+    turn(*normals);
+    CHECK(changed(watch));
+    CHECK_FALSE(changed(watch));
+    const osg::ref_ptr<osg::Vec3Array> others = new osg::Vec3Array(3);
+    shaded.part->setVertexAttribArray(3, others, osg::Array::BIND_PER_VERTEX);
+    CHECK(changed(watch));
+    turn(*others);
+    CHECK(changed(watch));
+    CHECK_FALSE(changed(watch));
+}

@@ -47,6 +47,21 @@ osg::ref_ptr<osg::Camera> textureCamera(osg::Texture2D& texture)
     return camera;
 }
 
+/// Counts its calls, and knows the material of one geometry.
+struct CountingHook : MaterialHook
+{
+    osg::ref_ptr<PhysicalMaterial> materialFor(const osg::NodePath& path,
+                                               const std::vector<const osg::StateSet*>&) override
+    {
+        ++calls;
+        return path.back() == known ? material : nullptr;
+    }
+
+    int calls = 0;
+    const osg::Node* known = nullptr;
+    const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+};
+
 void addProgram(osg::Node& node)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
@@ -222,13 +237,64 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
 TEST_CASE("cull content: a transform that asks the cull visitor for its eye", "[gl][cull]")
 {
     osg::ref_ptr<EyeFollower> follower = new EyeFollower;
-    const osg::ref_ptr<osg::Geometry> square = unlitSquare(0.4f, kRed);
-    follower->addChild(raised(square.get(), -1.5f));
     follower->setCullingActive(false); // its bound is where the eye is not
-    View view(follower.get());
-    checkPicture(view);
+    SECTION("a surface is traced")
+    {
+        follower->addChild(raised(unlitSquare(0.4f, kRed).get(), -1.5f));
+        View view(follower.get());
+        checkPicture(view);
+        CHECK(view.count("converted.culled") == 1);
+        CHECK(view.count("rasterized.foreign-node") == 0);
+    }
+    SECTION("a sky, which its depth range puts behind the wall")
+    {
+        const osg::ref_ptr<osg::Geometry> sky = unlitSquare(2.0f, kRed);
+        sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 1.0, 1.0));
+        sky->getStateSet()->setRenderBinDetails(-1, "RenderBin");
+        follower->addChild(raised(sky.get(), -1.5f));
+        View view(follower.get());
+        checkPicture(view);
+        CHECK(pixel(*view.viewer.frames(1), kSize / 2, kSize / 2).r() < 60.0f); // the wall is green
+        CHECK(view.count("rasterized.depth-range") == 1);
+        CHECK(view.count("converted.culled") == 0);
+    }
+}
+
+TEST_CASE("cull content: the application's material hook is asked in conversions only",
+          "[gl][cull]")
+{
+    const osg::ref_ptr<osg::Geometry> plain = plainSquare(0.8f), shaded = plainSquare(0.4f);
+    addProgram(*shaded);
+    osg::ref_ptr<osg::Group> content = new osg::Group;
+    content->addChild(raised(plain.get(), 0.5f));
+    content->addChild(raised(shaded.get(), 0.9f));
+    osg::ref_ptr<CullDrawn> terrain = new CullDrawn(content.get());
+    View view(terrain.get());
+    const osg::ref_ptr<CountingHook> hook = new CountingHook;
+    hook->known = plain.get();
+    view.scene->getSettings()->setMaterialHook(hook.get());
+    view.viewer.frames(3);
     CHECK(view.count("converted.culled") == 1);
-    CHECK(view.count("rasterized.foreign-node") == 0);
+    CHECK(view.count("rasterized.shader-program") == 1);
+    const uint64_t conversions = view.conversions();
+    const int calls = hook->calls;
+    view.viewer.frames(5);
+    CHECK(view.conversions() == conversions);
+    CHECK(hook->calls == calls);
+    view.scene->dirtyScene();
+    view.viewer.frames(1);
+    CHECK(hook->calls == calls + 3); // once for each of the two squares and the wall
+
+    const osg::ref_ptr<osg::Geometry> other = plainSquare(0.4f);
+    addProgram(*other);
+    hook->known = other.get();
+    osg::ref_ptr<osg::Group> exchanged = new osg::Group;
+    exchanged->addChild(raised(other.get(), 0.9f));
+    exchanged->addChild(raised(shaded.get(), 0.5f));
+    terrain->content = exchanged.get();
+    view.viewer.frames(2);
+    CHECK(view.count("converted.culled") == 1);
+    CHECK(view.count("traced.by-rule") == 1); // the hook was asked for what is new
 }
 
 TEST_CASE("cull content: what only hides changes nothing", "[gl][cull]")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/modes/FeaturesMode.h"
 
+#include "apps/osgraytracebench/modes/UnusedContent.h"
 #include "apps/osgraytracebench/scenes/FeatureScenes.h"
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
@@ -138,6 +139,7 @@ void measureFeatures(Rows& rows)
         measurePair(pair, true, rows);
     for (const ScenePair& pair : generalWays(kSize))
         measurePair(pair, false, rows);
+    measureUnusedContent(rows);
 }
 
 } // namespace osgRayTrace::bench

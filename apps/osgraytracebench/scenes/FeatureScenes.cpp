@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/scenes/FeatureScenes.h"
 
+#include "osgRayTrace/bridge/graph/Proxies.h"
+
 #include <functional>
 #include <utility>
 
@@ -116,6 +118,26 @@ void placeAll(Scene& scene, Hidden&)
         instance.placed = true;
 }
 
+/// Makes a block in the middle of the box of the hidden triangle.
+void showBlock(Hidden& hidden)
+{
+    std::vector<Vec3> positions;
+    positions.reserve(9); // Embree reads past the last one
+    for (int corner = 0; corner < 8; ++corner)
+        positions.emplace_back(corner & 1 ? 380 : 180, corner & 2 ? 300 : 100,
+                               corner & 4 ? 380 : 180);
+    hidden.mesh.positions = std::move(positions);
+    hidden.mesh.triangles =
+        std::vector<UVec3>{{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 4, 5}, {0, 5, 1},
+                           {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+}
+
+void showProxy(Scene&, Hidden& hidden)
+{
+    showBlock(hidden);
+    hideFromCamera(hidden.material);
+}
+
 /// Features that the hidden triangle of a scene can have.
 std::vector<std::pair<const char*, Change>> hiddenFeatures()
 {
@@ -170,6 +192,7 @@ std::vector<std::pair<const char*, Change>> hiddenFeatures()
              h.material.alphaReference = 0.5f;
              h.material.culling = FaceCulling::Back;
          }},
+        {"proxy", [](Scene&, Hidden& h) { hideFromCamera(h.material); }},
         {"environment", [](Scene& s, Hidden&) { s.lights.push_back(blackEnvironment()); }},
     };
 }
@@ -193,7 +216,9 @@ std::vector<ScenePair> generalWays(int size)
             {"all meshes placed, not one flat BVH", plain, boxWith(size, placeAll)},
             {"one mesh placed, beside a flat BVH", plain,
              boxWith(size, [](Scene&, Hidden& h) { h.instance.placed = true; })},
-            {"a second area light, out of sight", plain, boxWith(size, emitFaintly)}};
+            {"a second area light, out of sight", plain, boxWith(size, emitFaintly)},
+            {"a block that is a proxy, not traced for all rays",
+             boxWith(size, [](Scene&, Hidden& h) { showBlock(h); }), boxWith(size, showProxy)}};
 }
 
 } // namespace osgRayTrace::bench

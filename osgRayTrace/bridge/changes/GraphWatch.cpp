@@ -51,7 +51,7 @@ uint64_t inheritedHash(const ViewingConditions& conditions, KeptObjects* kept = 
 
 void GraphWatch::forget()
 {
-    *this = GraphWatch();
+    *this = GraphWatch(_fetchesAhead);
 }
 
 /// Returns the first watched node, or null if nothing is visible. The watch looks through
@@ -66,7 +66,7 @@ osg::Node* GraphWatch::firstNode(osg::Node& root) const
 void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
 {
     WatchedGraph before = std::move(_graph); // this copy keeps its nodes alive until the end
-    *this = GraphWatch();
+    *this = GraphWatch(_fetchesAhead);
     _graph.traversalMask = conditions.traversalMask;
     _graph.reads = conditions.reads;
     _plain = conditions;
@@ -238,7 +238,7 @@ bool GraphWatch::lookAtNodes(GraphChanges& changes)
     uint32_t i = 0;
     while (i < nodes.size())
     {
-        if (i + kAhead < nodes.size()) fetch(nodes[i + kAhead]);
+        if (_fetchesAhead && i + kAhead < nodes.size()) fetch(nodes[i + kAhead]);
         WatchedNode& node = nodes[i];
         if (!_graph.isVisible(*node.node))
         {

@@ -18,7 +18,8 @@ namespace osgRayTrace::engine
 class GraphWatch
 {
 public:
-    GraphWatch() = default;
+    /// fetchesAhead: see Prefetch.h; false is for comparisons.
+    explicit GraphWatch(bool fetchesAhead = true) : _fetchesAhead(fetchesAhead) {}
     GraphWatch(GraphWatch&&) = default;
     GraphWatch& operator=(GraphWatch&&) = default;
 
@@ -60,6 +61,7 @@ private:
     void findChanged(GraphChanges& changes);
     uint32_t usesBefore(uint32_t geometry, uint32_t node) const;
 
+    bool _fetchesAhead;
     bool _recorded = false;
     ObjectName _first;        ///< first watched node; none: nothing is visible
     ViewingConditions _plain; ///< conditions of the last look without inherited state

@@ -127,10 +127,10 @@ uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept)
     return hasher.value();
 }
 
-uint64_t arraysHash(const osg::Geometry& geometry)
+uint64_t arraysHash(const osg::Geometry& geometry, bool attributes)
 {
     uint64_t hash = 0;
-    forEachBuffer(geometry,
+    forEachBuffer(geometry, attributes,
                   [&hash](const osg::BufferData* data, bool) { hash = fold(hash, bitsOf(data)); });
     return hash;
 }

@@ -28,8 +28,9 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node);
 /// Returns a hash of the values of a light except for its frame. kept is as in Hasher.
 uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept = nullptr);
 
-/// Returns a hash of the arrays and primitive sets that a geometry has.
-uint64_t arraysHash(const osg::Geometry& geometry);
+/// Returns a hash of the arrays and primitive sets that a geometry has. attributes is as in
+/// forEachBuffer.
+uint64_t arraysHash(const osg::Geometry& geometry, bool attributes);
 
 /// Returns a hash of all else that decides on a geometry's conversion, except for its state set.
 uint64_t conversionHash(const osg::Geometry& geometry);

@@ -19,7 +19,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     watched.looked = _looks;
     const osg::Geometry& geometry = *watched.geometry;
     if (conversionHash(geometry) != watched.conversion) return false;
-    const uint64_t arrays = arraysHash(geometry);
+    const uint64_t arrays = arraysHash(geometry, _graph.watchesAttributes());
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
@@ -37,7 +37,8 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
     const std::size_t count = buffers.size();
     for (std::size_t i = 0; i < count; ++i)
     {
-        if (i + kAhead < count) fetch(buffers[i + kAhead].data.get(), kBufferBytes);
+        if (_fetchesAhead && i + kAhead < count)
+            fetch(buffers[i + kAhead].data.get(), kBufferBytes);
         WatchedBuffer& buffer = buffers[i];
         const uint64_t hash = bufferHash(buffer.kind, *buffer.data);
         if (hash == buffer.hash) continue;

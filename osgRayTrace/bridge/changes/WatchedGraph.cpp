@@ -69,7 +69,7 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
 void WatchedGraph::setBuffers(uint32_t index)
 {
     forEachBuffer(
-        *geometries[index].geometry,
+        *geometries[index].geometry, watchesAttributes(),
         [this, index](const osg::BufferData* data, bool shape)
         {
             if (!data) return;
@@ -186,7 +186,7 @@ void WatchedGraph::appendGeometry(osg::Geometry& geometry, WatchedNode entry)
     push(entry);
     if (!isNew) return;
     watched.geometry = &geometry;
-    watched.arrays = arraysHash(geometry);
+    watched.arrays = arraysHash(geometry, watchesAttributes());
     watched.conversion = conversionHash(geometry);
     setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();

@@ -146,6 +146,9 @@ struct WatchedGraph
         return (traversalMask & node.getNodeMask()) != 0;
     }
 
+    /// Returns whether vertex attributes are watched beside the fixed arrays.
+    bool watchesAttributes() const { return reads && reads->attributes; }
+
     /// Appends the visible nodes from a node on, which lies below depth others.
     void append(osg::Node& node, uint32_t parent, const osg::Matrixd& sceneFromParent,
                 std::size_t depth, const ViewingConditions& conditions);

@@ -33,6 +33,7 @@ struct ShaderReads
 {
     std::vector<std::string> uniforms; ///< patterns
     bool userValues = false;           ///< true: any user value of a state set
+    bool attributes = false;           ///< true: vertex attributes in the place of fixed arrays
 
     bool reads(const osg::Uniform& uniform) const;
 };

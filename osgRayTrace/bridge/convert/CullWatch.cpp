@@ -27,15 +27,13 @@ constexpr std::size_t kRoundsByDrawables = 16;
 uint64_t CullWatch::hashOf(const osg::StateSet& stateSet) const
 {
     Hasher hasher;
-    addStateSet(hasher, stateSet, _reads.get());
+    addStateSet(hasher, stateSet, _plain.reads.get());
     return hasher.value();
 }
 
 uint64_t CullWatch::hashOf(osg::Drawable& drawable) const
 {
-    ViewingConditions conditions;
-    conditions.reads = _reads;
-    return graphHash(drawable, conditions);
+    return graphHash(drawable, _plain);
 }
 
 /// Returns whether a state set has the values that another one had when it was converted. Callbacks
@@ -59,11 +57,11 @@ CullWatch::LeafValues CullWatch::valuesOf(const CapturedLeaf& leaf) const
 void CullWatch::record(std::vector<CullOutcome> outcomes, bool unknown,
                        std::shared_ptr<const ShaderReads> reads)
 {
-    _reads = std::move(reads);
+    _plain.reads = std::move(reads);
     _watched.clear();
     _unknown = unknown;
     _next = _credit = 0;
-    _plain = nullptr;
+    _plainAbove = nullptr;
     for (CullOutcome& outcome : outcomes)
     {
         Watched& watched = _watched.emplace_back();
@@ -107,7 +105,7 @@ bool CullWatch::holds(const ConversionInput& input, const Caches& caches)
         _credit -= cost;
         _next = (_next + 1) % _watched.size();
         if (_next > 0) continue;
-        _plain = nullptr;
+        _plainAbove = nullptr;
         ++_rounds;
     }
     _credit = 0;
@@ -127,13 +125,14 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input, const Cach
         unused.setPlace({});
         if (signature == then.signature)
         {
-            _plain = &then;
+            _plainAbove = &then;
             return true;
         }
     }
     GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
                              caches.rules, unused);
-    const std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path);
+    const std::optional<CullOutcome> now =
+        collector.cullOutcomeAt(then.path, watched.outcome.answers);
     unused.setPlace({});
     if (!now || !isSame(watched, *now, input.eye.length())) return false;
     watched.outcome.signature = now->signature;
@@ -143,9 +142,9 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input, const Cach
 /// Returns whether an outcome is plain below a plain one whose drawables are as they were.
 bool CullWatch::isInPlain(const CullOutcome& outcome) const
 {
-    return _plain && outcome.kind == CullOutcome::Plain &&
-           outcome.path.size() > _plain->path.size() &&
-           std::equal(_plain->path.begin(), _plain->path.end(), outcome.path.begin());
+    return _plainAbove && outcome.kind == CullOutcome::Plain &&
+           outcome.path.size() > _plainAbove->path.size() &&
+           std::equal(_plainAbove->path.begin(), _plainAbove->path.end(), outcome.path.begin());
 }
 
 bool CullWatch::covers(const osg::NodePath& path) const

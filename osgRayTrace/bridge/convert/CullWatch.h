@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/CullOutcome.h"
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
@@ -68,13 +69,13 @@ private:
     bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance) const;
 
     std::vector<Watched> _watched;
-    std::shared_ptr<const ShaderReads> _reads;
+    ViewingConditions _plain; ///< conditions of hashes of single drawables: reads alone
     bool _unknown = false;
     std::size_t _next = 0;   ///< index of the subtree to look at
     std::size_t _credit = 0; ///< drawables that calls have left
     std::size_t _rounds = 0; ///< looks at all subtrees
     /// Subtree that was found as it had been, with all nested ones that are plain.
-    const CullOutcome* _plain = nullptr;
+    const CullOutcome* _plainAbove = nullptr;
 };
 
 } // namespace osgRayTrace::engine

@@ -3,17 +3,19 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
+#include "osgRayTrace/bridge/convert/GraphTraits.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
+#include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 
-#include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include <algorithm>
 #include <chrono>
 
@@ -27,52 +29,6 @@ void setBounds(CollectedGraph& graph, GeometryCache& geometries)
 {
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.bounds = &geometries.bounds(*geometry.geometry);
-}
-
-bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
-{
-    if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
-    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
-    for (const CollectedGeometry& geometry : graph.geometries)
-        for (const GeometryUse& use : geometry.uses)
-            if (!use.proxy && graph.states[use.state].attributes[kPhysicalMaterialSlot])
-                return true;
-    return false;
-}
-
-bool setsColor(const CollectedGraph& graph)
-{
-    for (const CollectedGeometry& geometry : graph.geometries)
-        for (const GeometryUse& use : geometry.uses)
-            if (!use.proxy && setsCurrentColor(graph.states[use.state])) return true;
-    return false;
-}
-
-/// Adds geometry that OpenGL draws and that has no proxy. Its place is that of its path, so it may
-/// move without a conversion.
-void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more,
-                 SceneIndex& index)
-{
-    std::vector<const osg::Geometry*> untraced;
-    for (const osg::Geometry* geometry : more)
-        if (!index.geometries.count(geometry)) untraced.push_back(geometry);
-    for (const RasterizedPart& part : parts)
-    {
-        const osg::Geometry* geometry =
-            part.path.empty() ? nullptr : part.path.back()->asGeometry();
-        if (geometry && part.kind == RasterizedPart::Draw && !index.geometries.count(geometry))
-            untraced.push_back(geometry);
-    }
-    for (const osg::Geometry* geometry : untraced)
-        index.at(*geometry).uses.emplace_back();
-}
-
-/// Returns whether a state clips, because the effect of clip planes depends on the place of a
-/// geometry.
-bool hasClipping(const std::vector<GraphState>& states)
-{
-    return std::any_of(states.begin(), states.end(),
-                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
 }
 
 void beginCollection(ConversionCaches& caches)
@@ -121,6 +77,7 @@ struct SceneConverter::Implementation
     uint64_t forgotten = 0; ///< meshes that were made before the caches were emptied
     bool ordinary = false;  ///< true: unit is 1, and stays so as long as lengths are ordinary
     Stamp stamp = 0;
+    ThreadSeam seam;
 };
 
 SceneConverter::SceneConverter() : _implementation(std::make_unique<Implementation>()) {}
@@ -129,6 +86,7 @@ SceneConverter::~SceneConverter() = default;
 
 void SceneConverter::releaseGraph()
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
     state.caches.vertices = SoftwareVertices();
@@ -141,12 +99,14 @@ void SceneConverter::releaseGraph()
 
 void SceneConverter::forget()
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     _implementation->forgotten = convertedMeshes();
     _implementation->caches = ConversionCaches();
 }
 
 bool SceneConverter::holdsInCull(const ViewingConditions& conditions)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     Implementation& state = *_implementation;
     CullWatch& watch = state.convertedGraph.cullWatch;
     if (watch.isEmpty()) return true;
@@ -166,6 +126,7 @@ uint64_t SceneConverter::convertedMeshes() const
 
 ConversionResult SceneConverter::convert(const ConversionInput& input)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
     state.convertedGraph = ConvertedGraph();
@@ -211,7 +172,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.texGens = graph.texGens;
     state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown,
                                           input.materials ? input.materials->reads : nullptr);
-    addUntraced(graph.rasterized, graph.leftGeometries, state.convertedGraph.index);
+    state.convertedGraph.index.addUntraced(graph.rasterized, graph.leftGeometries);
     endCollection(state.caches);
 
     result.scene = state.last;
@@ -227,6 +188,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
 
 PatchResult SceneConverter::patch(const GraphChanges& changes)
 {
+    const ThreadSeam::Entry inside(_implementation->seam);
     const auto begin = std::chrono::steady_clock::now();
     Implementation& state = *_implementation;
     const auto refused = [](ConversionCause cause) {

@@ -79,4 +79,21 @@ void SceneIndex::setEffects(TracedUse& use, uint32_t effects)
     _colorUses += setsColor(use);
 }
 
+void SceneIndex::addUntraced(const RasterizedParts& parts,
+                             const std::vector<const osg::Geometry*>& more)
+{
+    std::vector<const osg::Geometry*> untraced;
+    for (const osg::Geometry* geometry : more)
+        if (!geometries.count(geometry)) untraced.push_back(geometry);
+    for (const RasterizedPart& part : parts)
+    {
+        const osg::Geometry* geometry =
+            part.path.empty() ? nullptr : part.path.back()->asGeometry();
+        if (geometry && part.kind == RasterizedPart::Draw && !geometries.count(geometry))
+            untraced.push_back(geometry);
+    }
+    for (const osg::Geometry* geometry : untraced)
+        at(*geometry).uses.emplace_back();
+}
+
 } // namespace osgRayTrace::engine

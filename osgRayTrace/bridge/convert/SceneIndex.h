@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
+#include "osgRayTrace/bridge/graph/RasterizedParts.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
@@ -70,6 +71,10 @@ struct SceneIndex
     void removeUse(TracedGeometry& traced, std::size_t use);
     void removeUses(TracedGeometry& traced);
     void setEffects(TracedUse& use, uint32_t effects);
+
+    /// Adds geometry that OpenGL draws and that has no proxy: that of parts, and more. Its place is
+    /// that of its path, so it may move without a conversion.
+    void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more);
 
     /// Uses whose state makes another colour current: see MaterialRules.
     std::size_t colorUses() const { return _colorUses; }

@@ -38,15 +38,15 @@ uint64_t contentsHash(const osg::BufferData& data);
 uint64_t rangesHash(const osg::PrimitiveSet& set);
 
 /// Calls f(buffer or null, whether the buffer belongs to the shape) for each buffer that a mesh is
-/// made of.
-template <class F> void forEachBuffer(const osg::Geometry& geometry, const F& f)
+/// made of. attributes: vertex attributes may take the place of the fixed arrays, by a rule.
+template <class F> void forEachBuffer(const osg::Geometry& geometry, bool attributes, const F& f)
 {
     f(geometry.getVertexArray(), true);
     f(geometry.getNormalArray(), true);
     f(geometry.getColorArray(), false);
     for (const osg::ref_ptr<osg::Array>& array : geometry.getTexCoordArrayList())
         f(array.get(), false);
-    if (!geometry.getVertexArray())
+    if (attributes || !geometry.getVertexArray())
         for (const osg::ref_ptr<osg::Array>& array : geometry.getVertexAttribArrayList())
             f(array.get(), false);
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())

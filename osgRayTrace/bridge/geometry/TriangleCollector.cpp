@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/TriangleCollector.h"
 
-#include "osgRayTrace/bridge/common/ArrayReader.h"
-#include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/PointSolids.h"
-#include "osgRayTrace/bridge/geometry/PolygonTriangles.h"
+#include "osgRayTrace/bridge/geometry/PolygonCutter.h"
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 
 #include <algorithm>
@@ -23,11 +21,11 @@ public:
     TriangleCollector(TriangleList& list, const osg::Geometry& geometry, std::size_t vertexCount,
                       const PrimitiveRestart& restart, const ListContents& contents)
         : _list(list),
-          _geometry(geometry),
           _vertexCount(vertexCount),
           _restart(restart),
           _numbered(contents.numbered),
-          _solids(contents.solids)
+          _solids(contents.solids),
+          _polygons(geometry, vertexCount)
     {
     }
 
@@ -128,7 +126,7 @@ private:
     {
         if (isPointOrLine(mode)) return appendSolids(mode, count, index);
         grow(triangleCount(mode, count));
-        if (mode != GL_POLYGON || !appendConcave(count, index))
+        if (mode != GL_POLYGON || !_polygons.append(count, index, _list.triangles))
             appendTriangles(mode, count, index, _list.triangles);
         if (_numbered) number(mode, count);
     }
@@ -157,31 +155,6 @@ private:
         _primitives += static_cast<uint32_t>(PrimitiveCounter::countOf(mode, count));
     }
 
-    /// Appends a concave polygon. Returns false if the fan is right.
-    template <class Index> bool appendConcave(std::size_t count, const Index& index)
-    {
-        if (count < 4 || count > kMostCorners) return false;
-        readPositions();
-        std::vector<Vec3d> corners;
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            if (index(i) >= _positions.size()) return false;
-            corners.push_back(_positions[index(i)]);
-        }
-        const std::vector<UVec3> cut = concavePolygonTriangles(corners);
-        for (const UVec3& t : cut)
-            _list.triangles.emplace_back(index(t.x), index(t.y), index(t.z));
-        return !cut.empty();
-    }
-
-    void readPositions()
-    {
-        if (!_positions.empty()) return;
-        _positions.resize(_vertexCount);
-        forEachRow(*positionArray(_geometry), {_vertexCount},
-                   [&](std::size_t i, const Vec4d& row) { _positions[i] = Vec3d(row) / row.w; });
-    }
-
     /// Reserves exactly as much as a single set needs; for many small sets the memory doubles, as a
     /// vector's does by itself.
     void grow(std::size_t more)
@@ -193,14 +166,13 @@ private:
     }
 
     TriangleList& _list;
-    const osg::Geometry& _geometry;
     std::size_t _vertexCount;
     const PrimitiveRestart& _restart;
     const bool _numbered;
     const bool _solids;
     unsigned int _primitiveSet = 0;
-    uint32_t _primitives = 0;      // number of primitives so far
-    std::vector<Vec3d> _positions; // read only if there are polygons
+    uint32_t _primitives = 0; // number of primitives so far
+    PolygonCutter _polygons;
 };
 
 const osg::DrawElementsUInt* soleTriangleList(const osg::Geometry& geometry,

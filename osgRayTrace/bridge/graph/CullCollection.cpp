@@ -218,11 +218,15 @@ CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
     return CullOutcome::Captured;
 }
 
-std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path)
+std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path,
+                                                         HookAnswers& answers)
 {
     if (!_input.pass || !_input.view || !descendTo(path)) return std::nullopt;
     pushOntoNodePath(path.back());
-    return cullOutcome();
+    _materials.repeatAnswers(answers);
+    CullOutcome outcome = cullOutcome();
+    if (_materials.lacksAnswers()) return std::nullopt;
+    return outcome;
 }
 
 std::optional<uint64_t> GraphCollector::cullSignatureAt(const osg::NodePath& path)
@@ -270,9 +274,13 @@ bool GraphCollector::collectsInCull(osg::Node& node)
     }
     // A cull traversal of so many paths would not end, with this library or without.
     if (_counts.of(node, kMostPaths, kDeepestPath) > kMostPaths) return false;
+    HookAnswers answers;
+    _materials.keepAnswers(&answers);
     CullOutcome outcome = cullOutcome();
     const bool collected = outcome.kind != CullOutcome::Plain;
     if (collected) collectCulled(node, outcome, reason);
+    _materials.keepAnswers(nullptr);
+    outcome.answers = std::move(answers);
     _graph.cullOutcomes.push_back(std::move(outcome));
     return collected;
 }
@@ -285,9 +293,13 @@ bool GraphCollector::collectsChosen(osg::Drawable& drawable)
         return false;
     const char* reason = cullReason(drawable);
     if (!reason) return false;
+    HookAnswers answers;
+    _materials.keepAnswers(&answers);
     CullOutcome outcome = cullOutcome();
     const bool collected = outcome.kind == CullOutcome::Captured;
     if (collected) collectCulled(drawable, outcome, reason);
+    _materials.keepAnswers(nullptr);
+    outcome.answers = std::move(answers);
     if (outcome.kind != CullOutcome::Left) _graph.cullOutcomes.push_back(std::move(outcome));
     return collected;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/appearance/materials/HookAnswers.h"
 #include "osgRayTrace/bridge/graph/CullCapture.h"
 
 #include <osg/Node>
@@ -39,6 +40,7 @@ struct CullOutcome
     std::size_t captured = 0; ///< number of leaves of the cull traversal
     uint64_t signature = 0;   ///< hash of the drawables and state sets of those leaves
     std::string error;        ///< see CapturedContent
+    HookAnswers answers;      ///< answers of the application's hook for the drawables
 
     /// Returns whether OSG has to draw something of the subtree.
     bool isDrawn() const { return kind == Left || !left.empty() || otherStages; }

@@ -20,10 +20,6 @@
 #include <osg/TexGenNode>
 #include <osg/Transform>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-
 namespace osgRayTrace::engine
 {
 
@@ -235,7 +231,10 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const bool isPosed = &posed != &geometry;
     const AssignedState assigned = assignedState(geometry);
     if (_leftToOsg > 0 || (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)))
-        return collectProxy(geometry, posed);
+    {
+        if (isProxied(geometry)) collectUse(posed, assigned.state, true);
+        return;
+    }
     if (assigned.by) _report.countFor("traced.by-rule", "'" + *assigned.by + "'");
     if (!_input.rasterizesRest && leavesToOsg(hintOf(getNodePath())))
         _report.count("approximated.rasterize-hint"); // there is no rasterizer

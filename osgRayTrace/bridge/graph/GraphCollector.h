@@ -46,9 +46,10 @@ public:
     /// false if the node cannot be placed.
     bool collectAt(const osg::NodePath& path);
 
-    /// Returns what becomes of the last node of a path, as collectAt() would decide now. Nothing:
-    /// it cannot be placed.
-    std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path);
+    /// Returns what becomes of the last node of a path, as collectAt() would decide now with these
+    /// answers of the hook, which is not asked. Nothing: the node cannot be placed, or an answer is
+    /// not there.
+    std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path, HookAnswers& answers);
 
     /// Returns CullOutcome::signature as it is now, in half the time.
     std::optional<uint64_t> cullSignatureAt(const osg::NodePath& path);
@@ -113,12 +114,12 @@ private:
     bool collectsInCull(osg::Node& node);
     void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
     static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);
-    AssignedState assignedState(const osg::Geometry& geometry);
+    AssignedState assignedState(const osg::Drawable& drawable);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     float pointRadiusOf(const osg::Geometry& geometry);
     void collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy);
-    void collectProxy(osg::Drawable& drawable, const osg::Geometry& triangles);
+    bool isProxied(osg::Drawable& drawable);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;

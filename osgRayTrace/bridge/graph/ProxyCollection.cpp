@@ -22,9 +22,10 @@ void GraphCollector::apply(osg::Drawable& drawable)
         rasterize();
     }
     if (!_input.rasterizesRest || !isSurface) return;
+    if (!isProxied(drawable)) return;
     ++_untracked; // graphHash looks at the drawable
     if (const osg::Geometry* triangles = _triangles.of(drawable))
-        collectProxy(drawable, *triangles);
+        collectUse(*triangles, assignedState(drawable).state, true);
     --_untracked;
 }
 
@@ -39,13 +40,13 @@ bool GraphCollector::leavesOut(const osg::Drawable& drawable)
     return true;
 }
 
-/// Adds a proxy of the drawable at the end of the path, which OSG draws, if it is to have one.
-void GraphCollector::collectProxy(osg::Drawable& drawable, const osg::Geometry& triangles)
+/// Returns whether the drawable at the end of the path, which OSG draws, has a proxy.
+bool GraphCollector::isProxied(osg::Drawable& drawable)
 {
     const bool pushed = pushState(drawable);
-    if (hasProxy(drawable, getNodePath(), _states.states()[_states.top()], _textures))
-        collectUse(triangles, _materials.stateOf(getNodePath(), _states).state, true);
+    const GraphState& state = _states.states()[_states.top()];
     if (pushed) _states.pop();
+    return hasProxy(drawable, getNodePath(), state, _textures);
 }
 
 } // namespace osgRayTrace::engine

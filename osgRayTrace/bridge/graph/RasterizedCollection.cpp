@@ -81,11 +81,11 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     _graph.rasterizedPaths.push_back(pickPath());
 }
 
-/// Returns the state of the geometry at the end of the path, with the material that a rule of the
+/// Returns the state of the drawable at the end of the path, with the material that a rule of the
 /// user's gives it.
-AssignedState GraphCollector::assignedState(const osg::Geometry& geometry)
+AssignedState GraphCollector::assignedState(const osg::Drawable& drawable)
 {
-    const osg::StateSet* stateSet = geometry.getStateSet();
+    const osg::StateSet* stateSet = drawable.getStateSet();
     if (stateSet) _states.push(*stateSet);
     AssignedState assigned = _materials.stateOf(getNodePath(), _states);
     if (stateSet) _states.pop();

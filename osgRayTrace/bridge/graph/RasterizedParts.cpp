@@ -4,11 +4,8 @@
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 
 #include "osgRayTrace/bridge/geometry/PointSolids.h"
+#include "osgRayTrace/bridge/graph/PlacedState.h"
 
-#include <osg/ClearNode>
-#include <osg/ClipNode>
-#include <osg/LightSource>
-#include <osg/TexGenNode>
 #include <osg/Transform>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>

@@ -89,7 +89,7 @@ void SceneUpdater::recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, 
 
 void SceneUpdater::releaseGraph()
 {
-    std::lock_guard<std::mutex> lock(_updateMutex);
+    std::lock_guard<CheckedMutex> lock(_updateMutex);
     if (std::exchange(_released, true)) return;
     _watch.forget();
     _converter.releaseGraph();
@@ -142,7 +142,7 @@ Statistics SceneUpdater::statistics() const
 void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
                           const osg::FrameStamp* frameStamp)
 {
-    std::lock_guard<std::mutex> lock(_updateMutex);
+    std::lock_guard<CheckedMutex> lock(_updateMutex);
     releaseHostArrays();
     try
     {
@@ -165,6 +165,7 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
 
 std::optional<ViewingConditions> SceneUpdater::takeRecorded()
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     std::lock_guard<std::mutex> lock(_recordedMutex);
     const Requests more = std::exchange(_recorded.asked, Requests());
     _asked.dirty |= more.dirty;
@@ -176,6 +177,7 @@ std::optional<ViewingConditions> SceneUpdater::takeRecorded()
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     // The settings are set last: they are there only if all else is.
     if (!_settings || _settings->getThreads() != settings.getThreads())
         _workers = std::make_shared<Workers>(settings.getThreads());
@@ -197,6 +199,7 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
 void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions conditions,
                                     const osg::FrameStamp* frameStamp)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     const bool seen = frameStamp && _frameNumber == frameStamp->getFrameNumber();
     const ConversionSettings settings = conversionSettings(
         *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
@@ -258,6 +261,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions condition
 ConversionCause SceneUpdater::causeToConvert(bool sameRoot, const ViewingConditions& conditions,
                                              const ConversionSettings& settings) const
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     if (_asked.dirty) return _asked.cause;
     if (!sameRoot || !_conditions) return ConversionCause::OtherRoot;
     if (!convertAlike(*_conditions, conditions)) return ConversionCause::OtherConditions;
@@ -268,6 +272,7 @@ ConversionCause SceneUpdater::causeToConvert(bool sameRoot, const ViewingConditi
 /// Counts a conversion and records its reason; the very first conversion has no reason.
 void SceneUpdater::recordReason(const ConversionReason& reason)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     const bool first = _done.conversions++ == 0;
     if (first) return;
     _done.lastConversionReason = textOf(reason.cause);
@@ -280,6 +285,7 @@ void SceneUpdater::recordReason(const ConversionReason& reason)
 GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
                                 const ViewingConditions& conditions)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     GraphChanges changes;
     changes.convert = !same;
     changes.record = !sameRoot;
@@ -300,6 +306,7 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
 
 ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions& conditions)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     ConversionInput input;
     static_cast<ConversionSettings&>(input) = _conversionSettings;
     input.root = &root;
@@ -321,6 +328,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
 
 void SceneUpdater::build(const ConversionResult& conversion)
 {
+    OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     std::shared_ptr<const TracedScene> traced = version().inputs.scene;
     if (!traced || &traced->scene() != conversion.scene.get())
     {

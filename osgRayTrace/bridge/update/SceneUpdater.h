@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
@@ -120,7 +121,7 @@ private:
 
     std::atomic<bool> _picks{false}; ///< whether anybody has ever picked
 
-    std::mutex _updateMutex; // lock of all below: one update or cull thread at a time
+    CheckedMutex _updateMutex; // lock of all below: one update or cull thread at a time
     SceneConverter _converter;
     Requests _asked; ///< requests not served yet, since earlier steps may throw
     /// This copy of the last update's settings stays the same until the settings change.

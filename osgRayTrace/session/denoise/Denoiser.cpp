@@ -8,6 +8,7 @@ namespace osgRayTrace::engine
 void Denoiser::denoise(ResolvedImage& image, DenoiseKind kind, const Surfaces& surfaces,
                        const Workers& workers)
 {
+    const ThreadSeam::Entry inside(_seam);
     _report = {};
     if (kind == DenoiseKind::Off) return;
     if (kind == DenoiseKind::Oidn && denoiseByOidn(image, surfaces, workers)) return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/session/denoise/DenoiseFilter.h"
 #include "osgRayTrace/session/denoise/DenoiseOidn.h"
 #include "osgRayTrace/session/denoise/DenoiseReport.h"
@@ -41,6 +42,7 @@ private:
     std::unique_ptr<DenoiseOidn> _oidn;
     bool _filterKnows = false, _oidnKnows = false; ///< whether the denoiser has the surfaces
     DenoiseReport _report;
+    ThreadSeam _seam;
 };
 
 } // namespace osgRayTrace::engine

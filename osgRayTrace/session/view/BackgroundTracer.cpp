@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/BackgroundTracer.h"
 
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/session/view/BackgroundThreads.h"
 
 #include <atomic>
@@ -67,7 +68,7 @@ struct BackgroundTracer::Worker
     void handOver();
     bool mayStep() const { return due && guests == 0 && unasked < kMostUnasked; }
 
-    std::mutex
+    CheckedMutex
         tracing; // held while tracing or reading: by the worker, by draw, by a request for radiance
     ViewTracer tracer;
     bool stepping = false; ///< whether the worker traces
@@ -181,7 +182,7 @@ void BackgroundTracer::Worker::run() noexcept
 
 Outcome BackgroundTracer::Worker::step(const TraceRequest& request) noexcept
 {
-    std::lock_guard<std::mutex> lock(tracing);
+    std::lock_guard<CheckedMutex> lock(tracing);
     stepping = true;
     Outcome outcome = tryToTrace(request);
     stepping = false;
@@ -214,6 +215,7 @@ Outcome BackgroundTracer::Worker::tryToTrace(const TraceRequest& request) noexce
 
 Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
 {
+    OSGRAYTRACE_ASSERT(tracing.isHeld());
     if (request.traces) tracer.trace(request.inputs, request.view, request.budget);
     // A pass that was given up need not be shown: the pass's request has an image, and another is
     // wanted.
@@ -350,6 +352,7 @@ BackgroundTracer::Lease::~Lease()
 
 ViewTracer* BackgroundTracer::Lease::operator->() const
 {
+    OSGRAYTRACE_ASSERT(_worker.tracing.isHeld());
     return &_worker.tracer;
 }
 

@@ -79,6 +79,7 @@ bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
 bool ViewTracer::trace(const ViewInputs& inputs, const View& pass, const FrameBudget& budget,
                        uint8_t* rgba, float* depth)
 {
+    const ThreadSeam::Entry inside(_seam);
     _begin = _now();
     const bool moved = takeInputs(inputs, pass);
     _stillFrames = moved ? 0 : _stillFrames + 1;
@@ -202,6 +203,7 @@ void ViewTracer::estimateError()
 
 void ViewTracer::recordPresented()
 {
+    const ThreadSeam::Entry inside(_seam);
     const double end = _now();
     _frame.seconds = end - _begin;
     _frame.divider = _displayState == DisplayState::Whole ? 1 : _divider;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/view/FrameAgreement.h"
 #include "osgRayTrace/session/view/FramePlan.h"
@@ -209,6 +210,7 @@ private:
         return _displayState == DisplayState::Whole ? *_session : *_reduced;
     }
 
+    ThreadSeam _seam; ///< checks the functions that change the tracer
     std::function<double()> _now;
     std::function<bool()> _interrupt;
     std::shared_ptr<Workers> _workers;

@@ -11,6 +11,7 @@ namespace osgRayTrace::engine
 
 bool ViewTracer::needsResolve(const ViewInputs& inputs)
 {
+    const ThreadSeam::Entry inside(_seam);
     _toneMap = toneMapOf(inputs);
     setDenoise(inputs.denoise);
     return hasImage() && (_imageChanged || !_resolved || _toneMap != *_resolved ||
@@ -19,6 +20,7 @@ bool ViewTracer::needsResolve(const ViewInputs& inputs)
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
 {
+    const ThreadSeam::Entry inside(_seam);
     switch (_displayState)
     {
     case DisplayState::Whole:
@@ -42,6 +44,7 @@ void ViewTracer::resolve(uint8_t* rgba, float* depth)
 
 std::vector<float> ViewTracer::radiance()
 {
+    const ThreadSeam::Entry inside(_seam);
     return stagesOf(image()).radiance(image());
 }
 
@@ -75,6 +78,7 @@ void ViewTracer::enlargeReduced(uint8_t* rgba, float* depth)
 
 void ViewTracer::forgetDisplay()
 {
+    const ThreadSeam::Entry inside(_seam);
     _holdsFull = false;
     _resolved.reset();
 }

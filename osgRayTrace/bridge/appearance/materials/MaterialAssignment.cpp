@@ -72,19 +72,32 @@ osg::ref_ptr<PhysicalMaterial> MaterialAssignment::ask(const osg::NodePath& path
     return nullptr;
 }
 
+/// Returns the application's material from the answers that are kept, or asks and keeps the answer.
+osg::ref_ptr<PhysicalMaterial> MaterialAssignment::hookMaterial(const osg::NodePath& path)
+{
+    if (!_answers) return ask(path);
+    if (const osg::ref_ptr<PhysicalMaterial>* known = _answers->find(*path.back())) return *known;
+    if (_repeats)
+    {
+        _lacksAnswers = true;
+        return nullptr;
+    }
+    return _answers->add(*path.back(), ask(path));
+}
+
 const MaterialRule* MaterialAssignment::ruleFor(const osg::NodePath& path,
                                                 const GraphState& state) const
 {
-    const MaterialLibrary& library = *_givers.library;
-    for (auto node = path.rbegin(); node != path.rend() && !library.nodes.empty(); ++node)
-        if (const MaterialRule* rule = library.nodes.find((*node)->getName())) return rule;
+    const MaterialLibrary& rules = *_givers.rules;
+    for (auto node = path.rbegin(); node != path.rend() && !rules.nodes.empty(); ++node)
+        if (const MaterialRule* rule = rules.nodes.find((*node)->getName())) return rule;
     if (const auto* material = state.attribute<osg::Material>(kMaterialSlot))
-        if (const MaterialRule* rule = library.materials.find(material->getName())) return rule;
+        if (const MaterialRule* rule = rules.materials.find(material->getName())) return rule;
     const osg::Texture2D* texture = textureOf(state);
     if (!texture || !texture->getImage()) return nullptr;
     const std::string& file = texture->getImage()->getFileName();
-    if (const MaterialRule* rule = library.textures.find(file)) return rule;
-    return library.textures.find(osgDB::getSimpleFileName(file));
+    if (const MaterialRule* rule = rules.textures.find(file)) return rule;
+    return rules.textures.find(osgDB::getSimpleFileName(file));
 }
 
 const osg::StateSet& MaterialAssignment::stateSetOf(const MaterialRule& rule, uint32_t number,
@@ -105,9 +118,9 @@ MaterialAssignment::shaderMatch(const osg::NodePath& path, uint32_t number, cons
 {
     const auto [known, isNew] = _shaderMatches.try_emplace(number);
     ShaderMatch& match = known->second;
-    if (!isNew && !_givers.library->readsUserValues) return match;
+    if (!isNew && !_givers.rules->readsUserValues) return match;
     match = ShaderMatch();
-    for (const ShaderRule& rule : _givers.library->shaders)
+    for (const ShaderRule& rule : _givers.rules->shaders)
     {
         if (!fits(rule, path, state)) continue;
         RuleMaterial made = materialOf(rule, path, state, _derived);
@@ -129,13 +142,13 @@ AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack&
     AssignedState result;
     const uint32_t number = result.state = states.top();
     if (_givers.hook)
-        if (const osg::ref_ptr<PhysicalMaterial> material = ask(path))
+        if (const osg::ref_ptr<PhysicalMaterial> material = hookMaterial(path))
         {
             result.by = &_hookName;
             result.state = below(states, *stateSetWith(material));
             return result;
         }
-    if (!_givers.library) return result;
+    if (!_givers.rules) return result;
     const GraphState state = states.states()[number];
     if (const MaterialRule* rule = ruleFor(path, state))
     {
@@ -144,7 +157,7 @@ AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack&
         result.state = below(states, stateSetOf(*rule, number, state));
         return result;
     }
-    if (_givers.library->shaders.empty()) return result;
+    if (_givers.rules->shaders.empty()) return result;
     const ShaderMatch& match = shaderMatch(path, number, state);
     if (!match.rule) return result;
     _usedShaders = true;
@@ -157,15 +170,15 @@ AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack&
 
 void MaterialAssignment::reportRules(ConversionReport& report) const
 {
-    if (!_givers.library) return;
-    const MaterialLibrary& library = *_givers.library;
-    for (const auto* rules : {&library.nodes, &library.materials, &library.textures})
-        for (const MaterialRule& rule : *rules)
+    if (!_givers.rules) return;
+    const MaterialLibrary& rules = *_givers.rules;
+    for (const auto* group : {&rules.nodes, &rules.materials, &rules.textures})
+        for (const MaterialRule& rule : *group)
             if (_used.count(&rule) == 0)
                 report.warn("warned.material-name",
                             "material file, " + rule.group + " '" + rule.pattern + "'",
                             "nothing in the scene has this name");
-    if (!library.shaders.empty() && !_usedShaders)
+    if (!rules.shaders.empty() && !_usedShaders)
         report.warn("warned.material-name", "material file, shaders",
                     "nothing in the scene fits any of the rules");
     for (const auto& [rule, what] : _missing)

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/appearance/materials/HookAnswers.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 #include "osgRayTrace/bridge/appearance/textures/DerivedTextures.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
@@ -24,7 +25,7 @@ namespace osgRayTrace::engine
 /// Tells who gives a scene materials beside its own state.
 struct MaterialGivers
 {
-    std::shared_ptr<const MaterialLibrary> library;           ///< null: no rules
+    std::shared_ptr<const MaterialLibrary> rules;             ///< null: there are none
     osg::ref_ptr<MaterialHook> hook;                          ///< null: nobody is asked
     std::vector<osg::ref_ptr<const osg::StateSet>> inherited; ///< state sets above the root
 };
@@ -52,6 +53,21 @@ public:
     /// PhysicalMaterial if the hook knows one or a rule fits.
     AssignedState stateOf(const osg::NodePath& path, StateStack& states);
 
+    /// Keeps the hook's answers from now on, and takes those that are there instead of asking
+    /// again. The paths to come differ in their last node alone. Null: nothing is kept any more.
+    void keepAnswers(HookAnswers* answers) { _answers = answers; }
+
+    /// Takes the hook's answers from those that were kept: the hook is not asked any more. Such a
+    /// path gets no material of the hook's if its answer is not there, see lacksAnswers().
+    void repeatAnswers(HookAnswers& answers)
+    {
+        _answers = &answers;
+        _repeats = true;
+    }
+
+    /// Returns whether an answer was wanted that was not there.
+    bool lacksAnswers() const { return _lacksAnswers; }
+
     /// Names the rules that fitted nothing, and those that ask for what is not there.
     void reportRules(ConversionReport& report) const;
 
@@ -64,6 +80,7 @@ private:
     };
 
     osg::ref_ptr<PhysicalMaterial> ask(const osg::NodePath& path) const;
+    osg::ref_ptr<PhysicalMaterial> hookMaterial(const osg::NodePath& path);
     const MaterialRule* ruleFor(const osg::NodePath& path, const GraphState& state) const;
     const osg::StateSet& stateSetOf(const MaterialRule& rule, uint32_t number,
                                     const GraphState& state);
@@ -72,6 +89,9 @@ private:
 
     const std::string _hookName = "material hook";
     MaterialGivers _givers;
+    HookAnswers* _answers = nullptr; ///< null: each path is asked for
+    bool _repeats = false;           ///< whether the answers are those of an earlier conversion
+    bool _lacksAnswers = false;
     DerivedTextures& _derived;
     std::set<const MaterialRule*> _used;
     bool _usedShaders = false;

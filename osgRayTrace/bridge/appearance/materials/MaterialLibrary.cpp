@@ -42,6 +42,7 @@ ShaderReads readsOf(const std::vector<ShaderRule>& rules)
     for (const ShaderRule& rule : rules)
     {
         reads.userValues = reads.userValues || rule.readsUserValues();
+        reads.attributes = reads.attributes || rule.attributes.any();
         for (const ParameterRule& parameter : rule.parameters)
             add(parameter.source);
         if (rule.alphaReference) add(*rule.alphaReference);

@@ -92,6 +92,8 @@ struct ParameterRule
 struct VertexAttributes
 {
     int position = -1, normal = -1, texcoord = -1;
+
+    bool any() const { return position >= 0 || normal >= 0 || texcoord >= 0; }
 };
 
 struct ShaderRule

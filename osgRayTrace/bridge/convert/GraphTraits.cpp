@@ -1,0 +1,45 @@
+// GraphTraits.cpp - looks through the states of all uses. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/convert/GraphTraits.h"
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Returns whether a use that camera rays meet has a state for which is(state) is true.
+template <class Is> bool anyUse(const CollectedGraph& graph, const Is& is)
+{
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (const GeometryUse& use : geometry.uses)
+            if (!use.proxy && is(graph.states[use.state])) return true;
+    return false;
+}
+
+} // namespace
+
+bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
+{
+    if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
+    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
+    return anyUse(graph, [](const GraphState& state)
+                  { return state.attributes[kPhysicalMaterialSlot] != nullptr; });
+}
+
+bool setsColor(const CollectedGraph& graph)
+{
+    return anyUse(graph, setsCurrentColor);
+}
+
+bool hasClipping(const std::vector<GraphState>& states)
+{
+    return std::any_of(states.begin(), states.end(),
+                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,23 @@
+// GraphTraits.h - what all surfaces of a collected graph together decide for each of them. Layer:
+// bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
+
+#include <osgRayTrace/RayTraceSettings>
+
+namespace osgRayTrace::engine
+{
+
+/// Returns whether colours are linear: by the rule, or because something in the graph is physical.
+bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule);
+
+/// Returns whether a material makes another colour current, see MaterialRules.
+bool setsColor(const CollectedGraph& graph);
+
+/// Returns whether a state clips, because the effect of clip planes depends on the place of a
+/// geometry.
+bool hasClipping(const std::vector<GraphState>& states);
+
+} // namespace osgRayTrace::engine
