@@ -120,6 +120,21 @@ TEST_CASE("included files come after the one that names them")
     CHECK(setup.farPlane == 70.0);
     written(folder, "more.xml", "<INCLUDE>more.xml</INCLUDE>");
     CHECK_THROWS_AS(CaveFile(file, "me"), Failure);
+    CHECK_THROWS_WITH(CaveFile(file, "me"), Catch::Contains("too many files"));
+
+    const auto chainOf = [&folder](int files)
+    {
+        std::string text = kOne;
+        for (int i = files - 1; i >= 0; --i)
+        {
+            const std::string name = std::to_string(i) + ".xml";
+            written(folder, name, text);
+            text = "<INCLUDE>" + name + "</INCLUDE>";
+        }
+        return folder / "0.xml";
+    };
+    CHECK_NOTHROW(CaveFile(chainOf(64), "me"));
+    CHECK_THROWS_WITH(CaveFile(chainOf(65), "me"), Catch::Contains("too many files"));
 }
 
 TEST_CASE("lists end at the first gap and at their cap")

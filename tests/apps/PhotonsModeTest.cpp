@@ -140,6 +140,19 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
     FAIL("it did not begin to measure within 20 s");
 }
 
+TEST_CASE("bench photons: a signal ends a row of minutes between two of its runs", "[apps]")
+{
+    const TemporaryFolder folder;
+    RunningProgram program(folder / ".", {OSGRAYTRACE_TEST_PROGRAM, "photons", "--only", "lookup",
+                                          "--runs", "1000", "--photons", "1000000"});
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    program.signal(SIGTERM);
+    const bool ended = program.prints("osgraytracebench: SIGTERM: ");
+    CHECK(ended);
+    if (!ended) program.signal(SIGKILL);
+    CHECK(program.wait() == 143);
+}
+
 TEST_CASE("bench photons: what cannot be printed ends with 4", "[apps]")
 {
     const TemporaryFolder folder;

@@ -133,19 +133,25 @@ struct Compared
     double difference; ///< of the ray traced picture from the rasterized one
     double shown;      ///< of the rasterized picture from the one without the nodes
     long pixels;
+    long others; ///< pixels that the nodes change in the ray traced picture alone
 };
 
 Compared compare(const std::vector<osg::ref_ptr<osg::Node>>& nodes)
 {
     const osg::ref_ptr<osg::Group> with = scene(nodes), without = scene({});
     const auto rasterized = picture(with.get(), false), bare = picture(without.get(), false);
-    Compared compared = {0.0, 0.0, 0};
+    const auto traced = picture(with.get(), true), bareTraced = picture(without.get(), true);
+    Compared compared = {0.0, 0.0, 0, 0};
     const auto changed = [&](int x, int y)
     { return pixel(*rasterized, x, y) != pixel(*bare, x, y); };
     for (int y = 0; y < kSize; ++y)
         for (int x = 0; x < kSize; ++x)
+        {
+            const bool inTraced = pixel(*traced, x, y) != pixel(*bareTraced, x, y);
             compared.pixels += changed(x, y) ? 1 : 0;
-    compared.difference = meanDifference(*picture(with.get(), true), *rasterized, changed);
+            compared.others += inTraced && !changed(x, y) ? 1 : 0;
+        }
+    compared.difference = meanDifference(*traced, *rasterized, changed);
     compared.shown = meanDifference(*bare, *rasterized, changed);
     return compared;
 }
@@ -153,8 +159,9 @@ Compared compare(const std::vector<osg::ref_ptr<osg::Node>>& nodes)
 void checkSame(const std::vector<osg::ref_ptr<osg::Node>>& nodes)
 {
     const Compared compared = compare(nodes);
-    CAPTURE(compared.difference, compared.shown, compared.pixels);
+    CAPTURE(compared.difference, compared.shown, compared.pixels, compared.others);
     CHECK(compared.pixels > 200);
+    CHECK(compared.others < 0.1 * compared.pixels); // edges of what is traced are smooth
     CHECK(compared.difference <
           0.02 * compared.shown); // where they cross the edge of what is traced
 }
