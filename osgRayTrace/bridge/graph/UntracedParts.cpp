@@ -22,10 +22,12 @@ namespace
 /// Returns whether a texture of the material is one that only OpenGL has.
 bool looksIntoOpenGL(const PhysicalMaterial& material, const TextureConverter& textures)
 {
-    for (const osg::Texture2D* texture :
-         {material.getBaseColorTexture(), material.getMetallicRoughnessTexture(),
-          material.getTransmissionTexture(), material.getEmissionTexture()})
+    for (int use = 0; use < PhysicalMaterial::NUMBER_OF_TEXTURES; ++use)
+    {
+        const osg::Texture2D* texture =
+            material.getTexture(static_cast<PhysicalMaterial::TextureUse>(use));
         if (texture && isOnlyInOpenGL(*texture) && !textures.knows(*texture)) return true;
+    }
     return false;
 }
 
