@@ -59,6 +59,10 @@ const char* untracedCamera(const osg::Camera& camera)
     if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||
         !camera.getBufferAttachmentMap().empty())
         return "not-traced.render-to-texture-camera";
+    // Readers of models make such cameras of the models' own: places to look from.
+    const bool drawsNothing = camera.getRenderOrder() == osg::Camera::NESTED_RENDER &&
+                              camera.getClearMask() == 0 && camera.getNumChildren() == 0;
+    if (drawsNothing) return nullptr;
     if (camera.getRenderOrder() != osg::Camera::NESTED_RENDER ||
         camera.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
         !camera.getProjectionMatrix().isIdentity())
