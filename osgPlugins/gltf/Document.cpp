@@ -23,6 +23,8 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a;   ///< "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004e4942; ///< "BIN"
 constexpr std::uint64_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
+constexpr std::size_t kMostNotes = 40;
+
 // What a file may make: so many times its own bytes, and so many more.
 constexpr std::uint64_t kShare = 16;
 constexpr std::uint64_t kSmallFile = std::uint64_t(64) << 20;
@@ -201,7 +203,11 @@ void Document::take(std::uint64_t bytes, const JsonPlace& place)
 
 void Document::note(const std::string& text)
 {
-    if (std::find(_notes.begin(), _notes.end(), text) == _notes.end()) _notes.push_back(text);
+    if (_notes.size() > kMostNotes) return;
+    if (_notes.size() == kMostNotes)
+        _notes.emplace_back("more of the same kinds is left out");
+    else if (std::find(_notes.begin(), _notes.end(), text) == _notes.end())
+        _notes.push_back(text);
 }
 
 } // namespace osgRayTrace::gltf

@@ -3,15 +3,12 @@
 #include "osgPlugins/gltf/ImageSize.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace osgRayTrace::gltf
 {
 
 namespace
 {
-
-constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 26;
 
 /// Returns a big-endian number of so many bytes; 0 if the text ends before.
 std::uint64_t numberAt(const std::string& bytes, std::size_t offset, std::size_t count)
@@ -46,12 +43,11 @@ std::uint64_t jpegPixels(const std::string& bytes)
 
 } // namespace
 
-bool isTooLargeImage(const std::string& bytes)
+std::uint64_t pixelsOf(const std::string& bytes)
 {
+    if (bytes.compare(0, 2, "\xff\xd8") == 0) return jpegPixels(bytes);
     const bool png = bytes.compare(0, 4, "\x89PNG") == 0;
-    const std::uint64_t width = numberAt(bytes, 16, 4), height = numberAt(bytes, 20, 4);
-    if (png) return height > 0 && width > kMostPixels / height;
-    return jpegPixels(bytes) > kMostPixels;
+    return png ? numberAt(bytes, 16, 4) * numberAt(bytes, 20, 4) : 0; // below 2^64
 }
 
 } // namespace osgRayTrace::gltf

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace osgRayTrace::gltf
 {
 
-/// Returns whether the header of a PNG or JPEG image says more than 2^26 pixels, for which a
-/// decoder would take memory before it looks at the data.
-bool isTooLargeImage(const std::string& bytes);
+/// Returns the number of pixels that the header of a PNG or JPEG image says, for which a decoder
+/// takes memory before it looks at the data; 0 for other images.
+std::uint64_t pixelsOf(const std::string& bytes);
 
 } // namespace osgRayTrace::gltf

@@ -14,7 +14,8 @@ namespace osgRayTrace::gltf
 namespace
 {
 
-constexpr unsigned int kTangentAttribute = 6; ///< OpenGL's fixed function has no use for it
+constexpr std::uint64_t kPrimitiveBytes = 1024; ///< of a Geometry without its arrays
+constexpr unsigned int kTangentAttribute = 6;   ///< OpenGL's fixed function has no use for it
 
 /// Returns the colours of what is not lit: the material's factor times those of the vertices.
 osg::ref_ptr<osg::Array> unlitColors(const osg::Array* colors, const osg::Vec4& factor)
@@ -113,6 +114,7 @@ const std::vector<MeshReader::Primitive>& MeshReader::primitives(std::size_t mes
     for (std::size_t i = 0; i < places.size(); ++i)
     {
         const JsonPlace place = places[i];
+        _document->take(kPrimitiveBytes, place);
         Vertices vertices = _vertices.read(place);
         if (!vertices.primitives) continue;
         const auto material = materialOf(place);
@@ -196,6 +198,7 @@ osg::ref_ptr<osg::Geode> MeshReader::own(std::size_t mesh, const JsonPlace& node
     const std::vector<float> morphWeights = weights(mesh, node);
     for (const Primitive& primitive : primitives(mesh))
     {
+        _document->take(kPrimitiveBytes, primitive.place);
         osg::ref_ptr<osg::Geometry> geometry;
         if (primitive.vertices.targets.empty())
         {

@@ -89,6 +89,7 @@ osg::ref_ptr<osg::Group> SceneReader::emptyNode(std::size_t index, const NodeTra
 osg::ref_ptr<osg::Group> SceneReader::node(std::size_t index, const Above& above)
 {
     const JsonPlace place = _document->element("nodes", index);
+    _document->take(kNodeBytes, place);
     NodeTransform transform = nodeTransform(place);
     if (transform.matrix && _animations.movesNode(index))
     {

@@ -9,6 +9,13 @@
 namespace osgRayTrace::gltf
 {
 
+namespace
+{
+
+constexpr std::size_t kMostBindings = 64; ///< of one joint, by different skins
+
+} // namespace
+
 SkinReader::SkinReader(Document& document, const NodeTree& tree)
     : _document(&document), _isBone(tree.count(), false)
 {
@@ -27,11 +34,14 @@ SkinReader::SkinReader(Document& document, const NodeTree& tree)
 
 /// Returns the bone, among the joint and those that stay with it, whose vertices are bound by a
 /// matrix. osgAnimation keeps that matrix in the bone.
-osgAnimation::Bone* SkinReader::boundBone(osgAnimation::Bone& joint, const osg::Matrix& inverseBind)
+osgAnimation::Bone* SkinReader::boundBone(osgAnimation::Bone& joint, const osg::Matrix& inverseBind,
+                                          const JsonPlace& place)
 {
     std::vector<osgAnimation::Bone*>& bound = _bound[&joint];
     for (osgAnimation::Bone* bone : bound)
         if (bone->getInvBindMatrixInSkeletonSpace() == inverseBind) return bone;
+    if (bound.size() == kMostBindings)
+        place.refuse("node '" + joint.getName() + "' is bound in more than 64 places");
     osg::ref_ptr<osgAnimation::Bone> bone = &joint;
     if (!bound.empty())
     {
@@ -72,7 +82,7 @@ const Skin& SkinReader::read(std::size_t number,
         if (bone == bones.end()) joints[i].refuse("is a node that is not in the scene");
         const osg::Matrix inverseBind =
             matrices.empty() ? osg::Matrix() : osg::Matrix(matrices.data() + 16 * i);
-        skin.bones.emplace_back(boundBone(*bone->second, inverseBind));
+        skin.bones.emplace_back(boundBone(*bone->second, inverseBind, joints[i]));
     }
     return _skins.emplace(number, std::move(skin)).first->second;
 }

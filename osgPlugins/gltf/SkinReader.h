@@ -36,7 +36,8 @@ public:
                      AccessorReader& accessors);
 
 private:
-    osgAnimation::Bone* boundBone(osgAnimation::Bone& joint, const osg::Matrix& inverseBind);
+    osgAnimation::Bone* boundBone(osgAnimation::Bone& joint, const osg::Matrix& inverseBind,
+                                  const JsonPlace& place);
 
     Document* _document;
     std::vector<bool> _isBone;

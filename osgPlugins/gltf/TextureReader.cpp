@@ -21,6 +21,8 @@ namespace
 {
 
 constexpr std::uint64_t kMostSets = 8;
+constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 26;
+constexpr std::uint64_t kMostPixelsOfAll = std::uint64_t(1) << 29;
 constexpr std::uint64_t kHeaderBytes = std::uint64_t(1) << 20; ///< an image's size is among them
 
 osg::Texture::WrapMode wrapOf(const JsonPlace& sampler, const char* member)
@@ -135,6 +137,18 @@ osg::ref_ptr<osg::Image> TextureReader::image(const JsonPlace& index)
     return held;
 }
 
+/// Returns whether an image and all before it are of sizes within reason; notes it if not.
+bool TextureReader::mayDecode(const std::string& begin, const JsonPlace& place)
+{
+    const std::uint64_t pixels = pixelsOf(begin);
+    const bool good = pixels <= kMostPixels && pixels <= kMostPixelsOfAll - _pixels;
+    if (good)
+        _pixels += pixels;
+    else
+        _document->note(place.path() + ": has more than 2^26 pixels, or all images more than 2^29");
+    return good;
+}
+
 /// Reads an image file by the caller's options, so that osgDB's caches hold.
 osg::ref_ptr<osg::Image> TextureReader::imageBeside(const JsonPlace& uri)
 {
@@ -148,11 +162,7 @@ osg::ref_ptr<osg::Image> TextureReader::imageBeside(const JsonPlace& uri)
     FileBytes file(path);
     std::string begin(static_cast<std::size_t>(std::min(file.size(), kHeaderBytes)), '\0');
     file.read(0, begin.size(), begin.data());
-    if (isTooLargeImage(begin))
-    {
-        _document->note(uri.path() + ": '" + path + "' has more than 2^26 pixels");
-        return namedImage(path);
-    }
+    if (!mayDecode(begin, uri)) return namedImage(path);
     osgDB::ReaderWriter::ReadResult read =
         osgDB::Registry::instance()->readImage(path, _document->options().caller);
     if (read.validImage()) return read.getImage();
@@ -177,12 +187,8 @@ osg::ref_ptr<osg::Image> TextureReader::embeddedImage(const JsonPlace& place)
     const std::string format = formatOf(bytes);
     osgDB::ReaderWriter* reader =
         format.empty() ? nullptr : osgDB::Registry::instance()->getReaderWriterForExtension(format);
-    if (!reader || isTooLargeImage(bytes))
-    {
-        _document->note(place.path() + (reader ? ": has more than 2^26 pixels"
-                                               : ": is of a format that is not read"));
-        return nullptr;
-    }
+    if (!reader) _document->note(place.path() + ": is of a format that is not read");
+    if (!reader || !mayDecode(bytes, place)) return nullptr;
     std::istringstream stream(bytes, std::ios::binary);
     osgDB::ReaderWriter::ReadResult read = reader->readImage(stream, _document->options().caller);
     if (!read.validImage())

@@ -46,10 +46,12 @@ private:
     osg::ref_ptr<osg::Image> image(const JsonPlace& place);
     osg::ref_ptr<osg::Image> imageBeside(const JsonPlace& uri);
     osg::ref_ptr<osg::Image> embeddedImage(const JsonPlace& image);
+    bool mayDecode(const std::string& begin, const JsonPlace& place);
 
     Document* _document;
     std::map<std::size_t, osg::ref_ptr<osg::Texture2D>> _textures;
     std::map<std::size_t, osg::ref_ptr<osg::Image>> _images;
+    std::uint64_t _pixels = 0; ///< of all images
 };
 
 /// Returns the transform of KHR_texture_transform for coordinates whose v goes up.
