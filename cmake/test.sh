@@ -6,7 +6,8 @@
 # CXX=clang++ builds with Clang, in a fresh clone; GCC is the default.
 # OSGRAYTRACE_FUZZ_SEEDS=<number> takes that many random inputs.
 # Sample models of OpenSceneGraph are found by OSG_FILE_PATH, or in a folder openscenegraph-data beside
-# or near the source; tests that need them are skipped without.
+# or near the source; those of glTF by OSGRAYTRACE_GLTF_MODELS, or in a folder gltf-data beside the source. Tests
+# that need them are skipped without.
 # SPDX-License-Identifier: MIT
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
@@ -31,7 +32,14 @@ for folder in "$ROOT/../openscenegraph-data" "$ROOT/../shared/data/openscenegrap
     fi
 done
 export OSG_FILE_PATH=${OSG_FILE_PATH:-}
+for folder in "$ROOT/../gltf-data" "$ROOT/../shared/data/gltf"; do
+    if [ -z "${OSGRAYTRACE_GLTF_MODELS:-}" ] && [ -d "$folder" ]; then
+        OSGRAYTRACE_GLTF_MODELS=$(cd "$folder" && pwd)
+    fi
+done
+export OSGRAYTRACE_GLTF_MODELS=${OSGRAYTRACE_GLTF_MODELS:-}
 say "Sample models: ${OSG_FILE_PATH:-none, tests that need them are skipped}"
+say "glTF sample models: ${OSGRAYTRACE_GLTF_MODELS:-none, the test that needs them is skipped}"
 
 # check PRESET [CTEST ARGUMENT ...] runs the tests of a preset.
 check()

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace osgRayTrace
 {
@@ -49,6 +50,15 @@ int compareTextures(const osg::Texture2D* left, const osg::Texture2D* right)
     return left->compare(*right);
 }
 
+int comparePlaces(const PhysicalMaterial::TexturePlace& left,
+                  const PhysicalMaterial::TexturePlace& right)
+{
+    const auto values = [](const PhysicalMaterial::TexturePlace& place)
+    { return std::tie(place.unit, place.offset, place.rotation, place.scale); };
+    if (values(left) < values(right)) return -1;
+    return values(right) < values(left) ? 1 : 0;
+}
+
 osg::Texture2D* copied(const osg::CopyOp& copyop, const osg::ref_ptr<osg::Texture2D>& texture)
 {
     return dynamic_cast<osg::Texture2D*>(copyop(static_cast<const osg::Texture*>(texture.get())));
@@ -71,31 +81,46 @@ PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::Cop
       _transmission(other._transmission),
       _ior(other._ior),
       _emission(other._emission),
-      _baseColorTexture(copied(copyop, other._baseColorTexture)),
-      _metallicRoughnessTexture(copied(copyop, other._metallicRoughnessTexture)),
-      _transmissionTexture(copied(copyop, other._transmissionTexture)),
-      _emissionTexture(copied(copyop, other._emissionTexture))
+      _alpha(other._alpha),
+      _vertexColors(other._vertexColors),
+      _normalScale(other._normalScale),
+      _thinWalled(other._thinWalled),
+      _attenuationColor(other._attenuationColor),
+      _attenuationDistance(other._attenuationDistance),
+      _specular(other._specular),
+      _specularColor(other._specularColor),
+      _clearcoat(other._clearcoat),
+      _clearcoatRoughness(other._clearcoatRoughness),
+      _sheenColor(other._sheenColor),
+      _sheenRoughness(other._sheenRoughness)
 {
+    for (int use = 0; use < NUMBER_OF_TEXTURES; ++use)
+    {
+        _textures[use] = copied(copyop, other._textures[use]);
+        _places[use] = other._places[use];
+    }
 }
 
 PhysicalMaterial::~PhysicalMaterial() = default;
 
 int PhysicalMaterial::compare(const osg::StateAttribute& other) const
 {
-    COMPARE_StateAttribute_Types(PhysicalMaterial, other) COMPARE_StateAttribute_Parameter(
-        _baseColor) COMPARE_StateAttribute_Parameter(_metallic)
-        COMPARE_StateAttribute_Parameter(_roughness) COMPARE_StateAttribute_Parameter(_transmission)
-            COMPARE_StateAttribute_Parameter(_ior) COMPARE_StateAttribute_Parameter(_emission)
-
-                const osg::ref_ptr<osg::Texture2D>
-                    PhysicalMaterial::*textures[] = {&PhysicalMaterial::_baseColorTexture,
-                                                     &PhysicalMaterial::_metallicRoughnessTexture,
-                                                     &PhysicalMaterial::_transmissionTexture,
-                                                     &PhysicalMaterial::_emissionTexture};
-    for (const auto texture : textures)
+    COMPARE_StateAttribute_Types(PhysicalMaterial, other);
+    const auto values = [](const PhysicalMaterial& m)
     {
-        const int order = compareTextures((this->*texture).get(), (rhs.*texture).get());
+        return std::tie(m._baseColor, m._metallic, m._roughness, m._transmission, m._ior,
+                        m._emission, m._alpha, m._vertexColors, m._normalScale, m._thinWalled,
+                        m._attenuationColor, m._attenuationDistance, m._specular, m._specularColor,
+                        m._clearcoat, m._clearcoatRoughness, m._sheenColor, m._sheenRoughness);
+    };
+    if (values(*this) < values(rhs)) return -1;
+    if (values(rhs) < values(*this)) return 1;
+    for (int use = 0; use < NUMBER_OF_TEXTURES; ++use)
+    {
+        const int order = compareTextures(_textures[use].get(), rhs._textures[use].get());
         if (order != 0) return order;
+        const int places = comparePlaces(_places[use], rhs._places[use]);
+        if (places != 0) return places;
     }
     return 0;
 }
@@ -130,24 +155,72 @@ void PhysicalMaterial::setEmission(const osg::Vec3& value)
     assign("emission", _emission, value, 0.0f, kLargest);
 }
 
-void PhysicalMaterial::setBaseColorTexture(osg::Texture2D* texture)
+void PhysicalMaterial::setAlpha(float value)
 {
-    _baseColorTexture = texture;
+    assign("alpha", _alpha, value, 0.0f, 1.0f);
 }
 
-void PhysicalMaterial::setMetallicRoughnessTexture(osg::Texture2D* texture)
+void PhysicalMaterial::setNormalScale(float value)
 {
-    _metallicRoughnessTexture = texture;
+    assign("normal scale", _normalScale, value, -16.0f, 16.0f);
 }
 
-void PhysicalMaterial::setTransmissionTexture(osg::Texture2D* texture)
+void PhysicalMaterial::setAttenuationColor(const osg::Vec3& value)
 {
-    _transmissionTexture = texture;
+    assign("attenuation color", _attenuationColor, value, 0.0f, 1.0f);
 }
 
-void PhysicalMaterial::setEmissionTexture(osg::Texture2D* texture)
+void PhysicalMaterial::setAttenuationDistance(float value)
 {
-    _emissionTexture = texture;
+    assign("attenuation distance", _attenuationDistance, value, 0.0f, kLargest);
+}
+
+void PhysicalMaterial::setSpecular(float value)
+{
+    assign("specular", _specular, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setSpecularColor(const osg::Vec3& value)
+{
+    assign("specular color", _specularColor, value, 0.0f, kLargest);
+}
+
+void PhysicalMaterial::setClearcoat(float value)
+{
+    assign("clearcoat", _clearcoat, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setClearcoatRoughness(float value)
+{
+    assign("clearcoat roughness", _clearcoatRoughness, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setSheenColor(const osg::Vec3& value)
+{
+    assign("sheen color", _sheenColor, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setSheenRoughness(float value)
+{
+    assign("sheen roughness", _sheenRoughness, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setTexture(TextureUse use, osg::Texture2D* texture)
+{
+    _textures[use] = texture;
+}
+
+void PhysicalMaterial::setTexturePlace(TextureUse use, const TexturePlace& place)
+{
+    TexturePlace& member = _places[use];
+    if (place.unit > 1) engine::warnOnce("PhysicalMaterial: texture unit above 1; clamped");
+    member.unit = std::min(place.unit, 1u);
+    for (int i = 0; i < 2; ++i)
+    {
+        assign("texture offset", member.offset[i], place.offset[i], -kLargest, kLargest);
+        assign("texture scale", member.scale[i], place.scale[i], -kLargest, kLargest);
+    }
+    assign("texture rotation", member.rotation, place.rotation, -kLargest, kLargest);
 }
 
 } // namespace osgRayTrace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "StoredView.h"
 
+#include <osg/Camera>
 #include <osg/CameraView>
 #include <osg/ClearNode>
 #include <osg/NodeVisitor>
@@ -40,7 +41,46 @@ private:
     std::set<osg::ref_ptr<osg::Node>> _visited;
 };
 
+/// Collects the cameras of models, each once for each path.
+class FindCameras : public osg::NodeVisitor
+{
+public:
+    FindCameras() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Camera& camera) override
+    {
+        if (camera.getName().empty() || camera.getNumChildren() > 0) return traverse(camera);
+        Placement placement;
+        double aspect = 0.0, nearest = 0.0, farthest = 0.0;
+        double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+        if (camera.getProjectionMatrixAsOrtho(left, right, bottom, top, nearest, farthest))
+            placement.height = top - bottom;
+        else if (!camera.getProjectionMatrixAsPerspective(placement.fovyDegrees, aspect, nearest,
+                                                          farthest))
+            return;
+        const osg::NodePath above(getNodePath().begin(), getNodePath().end() - 1);
+        const osg::Matrixd worldFromEye =
+            camera.getInverseViewMatrix() * osg::computeLocalToWorld(above);
+        placement.eye = worldFromEye.getTrans();
+        osg::Vec3d sight = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, -1.0), worldFromEye);
+        sight.normalize();
+        placement.center = placement.eye + sight;
+        placement.up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 1.0, 0.0), worldFromEye);
+        found.push_back({camera.getName(), placement});
+    }
+    using osg::NodeVisitor::apply;
+
+    std::vector<NamedPlacement> found;
+};
+
 } // namespace
+
+std::vector<NamedPlacement> namedPlacements(osg::Node& scene)
+{
+    FindCameras find;
+    scene.accept(find);
+    return find.found;
+}
 
 std::optional<Placement> storedPlacement(osg::Node& scene)
 {

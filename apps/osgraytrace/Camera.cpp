@@ -68,7 +68,23 @@ osg::Matrixd projectionOf(const Placement& placement, double aspect, const Depth
 {
     const double zFar = depths.farthest > 0.0 ? depths.farthest * 1.001 : 1.0;
     const double zNear = std::max(depths.nearest * 0.999, zFar * kNearFarRatio);
+    const double top = placement.height / 2.0;
+    if (top > 0.0) return osg::Matrixd::ortho(-top * aspect, top * aspect, -top, top, zNear, zFar);
     return osg::Matrixd::perspective(placement.fovyDegrees, aspect, zNear, zFar);
+}
+
+/// Returns the placement of the camera that the options name; nothing if they name none.
+std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scene)
+{
+    if (options.camera.empty()) return std::nullopt;
+    std::string names;
+    for (const NamedPlacement& camera : namedPlacements(scene))
+    {
+        if (camera.name == options.camera) return camera.placement;
+        names += (names.empty() ? "" : ", ") + camera.name;
+    }
+    throw Failure(kUsage, "--camera " + options.camera + ": the model's cameras are " +
+                              (names.empty() ? "none" : names));
 }
 
 } // namespace
@@ -76,12 +92,14 @@ osg::Matrixd projectionOf(const Placement& placement, double aspect, const Depth
 Camera cameraOf(const Options& options, osg::Node& scene)
 {
     const double aspect = double(options.width) / options.height;
-    const std::optional<Placement> stored = storedPlacement(scene);
+    const std::optional<Placement> chosen = chosenPlacement(options, scene);
+    const std::optional<Placement> stored = chosen ? chosen : storedPlacement(scene);
     Placement placement = stored ? *stored : homePlacement(options, scene);
     placement.eye = options.eye.value_or(placement.eye);
     placement.center = options.center.value_or(placement.center);
     placement.up = options.up.value_or(placement.up);
     placement.fovyDegrees = options.fovyDegrees.value_or(placement.fovyDegrees);
+    if (options.fovyDegrees) placement.height = 0.0;
     if ((placement.center - placement.eye).length2() == 0.0)
     {
         throw Failure(kUsage, "--eye and --center are the same point");

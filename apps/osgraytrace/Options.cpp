@@ -117,6 +117,8 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->allow_extra_args(false);
     app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
 
+    app.add_option("--camera", options.camera, "Camera of the model, by its name")
+        ->option_text("NAME");
     app.add_option("--eye", raw.eye, "Position of the camera")
         ->option_text("X Y Z")
         ->expected(3)

@@ -30,6 +30,7 @@ struct Options
 
     // The following members describe the view; members that are not given are taken from the scene:
     // see Camera.h.
+    std::string camera; ///< name of a camera of the scene; empty: none is asked for
     std::optional<osg::Vec3d> eye;
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> up;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "KeyHandler.h"
 
+#include "ShownPlacement.h"
+
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/ImageFile.h"
@@ -107,6 +109,9 @@ bool KeyHandler::press(const osgGA::GUIEventAdapter& event, osgViewer::View* vie
     case 'o':
         printObject(event, view);
         return true;
+    case 'v':
+        showNextCamera(view);
+        return true;
     default:
         return false;
     }
@@ -150,6 +155,21 @@ void KeyHandler::writeScreenshot() const
     }
 }
 
+/// Goes to the next of the cameras that the model brings with it.
+void KeyHandler::showNextCamera(osgViewer::View* view)
+{
+    if (!view || _frozen) return;
+    const std::vector<NamedPlacement> cameras = namedPlacements(*_scene);
+    if (cameras.empty())
+    {
+        OSG_NOTICE << "osgraytraceviewer: the model has no cameras" << std::endl;
+        return;
+    }
+    const NamedPlacement& camera = cameras[_camera++ % cameras.size()];
+    OSG_NOTICE << "osgraytraceviewer: camera " << camera.name << std::endl;
+    showPlacement(camera.placement, *_scene, *view);
+}
+
 /// Prints the names of what is under the mouse, as a material file can use them.
 void KeyHandler::printObject(const osgGA::GUIEventAdapter& event, osgViewer::View* view)
 {
@@ -175,6 +195,7 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("r", "Switch between ray tracer and rasterizer");
     usage.addKeyboardMouseBinding("R", "Print what is ray traced, and what is not");
     usage.addKeyboardMouseBinding("o", "Print the names of what is under the mouse");
+    usage.addKeyboardMouseBinding("v", "Next camera of the model");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");
 }
 

@@ -33,10 +33,12 @@ private:
     bool press(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
     void freeze(osgViewer::View* view);
     void writeScreenshot() const;
+    void showNextCamera(osgViewer::View* view);
     static void printObject(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
 
     osg::ref_ptr<RayTracedScene> _scene;
     bool _frozen = false;
+    std::size_t _camera = 0; ///< number of the model's camera that is shown next
     std::set<int>
         _held; ///< keys whose press was handled here, in lower case: their release is, too
     osg::ref_ptr<osgGA::CameraManipulator> _manipulator; ///< taken from the view while it is frozen

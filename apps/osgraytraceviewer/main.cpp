@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "CaveViewer.h"
 #include "KeyHandler.h"
+#include "ShownPlacement.h"
 #include "SignalledViewer.h"
 #include "StatusLine.h"
 
@@ -21,7 +22,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <optional>
@@ -114,21 +114,9 @@ std::string titleOf(const std::vector<std::string>& models)
 /// Sets the view and background that the scene brings with it, if any.
 void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
 {
-    osg::Camera* camera = viewer.getCamera();
-    if (const auto color = storedClearColor(scene)) camera->setClearColor(*color);
-    const std::optional<Placement> placement = storedPlacement(scene);
-    if (!placement) return;
-
-    // The trackball turns around the scene's middle, or around the point of the line of sight
-    // nearest to it.
-    const osg::Vec3d sight = placement->center - placement->eye;
-    const osg::Vec3d middle = scene.getBound().center();
-    const double distance = std::max((middle - placement->eye) * sight, 1.0);
-    osgGA::CameraManipulator* manipulator = viewer.getCameraManipulator();
-    manipulator->setHomePosition(placement->eye, placement->eye + sight * distance, placement->up);
-    manipulator->setAutoComputeHomePosition(false);
-    manipulator->home(0.0);
-    camera->setProjectionMatrixAsPerspective(placement->fovyDegrees, 1.25, 1.0, 10000.0);
+    if (const auto color = storedClearColor(scene)) viewer.getCamera()->setClearColor(*color);
+    if (const std::optional<Placement> placement = storedPlacement(scene))
+        showPlacement(*placement, scene, viewer);
 }
 
 /// Holds models with the ray traced scene that they are in.

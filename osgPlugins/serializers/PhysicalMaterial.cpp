@@ -1,6 +1,7 @@
 // PhysicalMaterial.cpp - PhysicalMaterial in .osgt, .osgb and .osgx files. Layer: plugins.
 // SPDX-License-Identifier: MIT
 #include "ClassicLocale.h"
+#include "MaterialDetails.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -22,5 +23,6 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_PhysicalMaterial, new osgRayTrace::PhysicalM
     ADD_OBJECT_SERIALIZER(MetallicRoughnessTexture, osg::Texture2D, nullptr);
     ADD_OBJECT_SERIALIZER(TransmissionTexture, osg::Texture2D, nullptr);
     ADD_OBJECT_SERIALIZER(EmissionTexture, osg::Texture2D, nullptr);
+    wrapper->addSerializer(materialDetails(), osgDB::BaseSerializer::RW_USER);
     writeInClassicLocale(*wrapper);
 }

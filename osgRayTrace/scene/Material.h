@@ -6,7 +6,9 @@
 #include "osgRayTrace/scene/Mesh.h"
 #include "osgRayTrace/scene/TextureMapping.h"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,6 +87,64 @@ struct FaceColors
     float alpha = 1.0f;
 };
 
+/// Names the textures of a physical material, in the order of PhysicalMaterial::TextureUse.
+enum TextureRole : uint32_t
+{
+    kBaseColorRole,
+    kMetallicRoughnessRole,
+    kTransmissionRole,
+    kEmissionRole,
+    kNormalRole,             ///< 2 RGB - 1 along s, along t and the normal; linear
+    kSpecularRole,           ///< specular in A; linear
+    kSpecularColorRole,      ///< multiplies specularColor
+    kClearcoatRole,          ///< clearcoat in R; linear
+    kClearcoatRoughnessRole, ///< clearcoatRoughness in G; linear
+    kSheenColorRole,         ///< multiplies sheenColor
+    kSheenRoughnessRole,     ///< sheenRoughness in A; linear
+    kTextureRoles,
+};
+
+/// Tells where a physical texture is looked up: at offset + u x + v y for coordinates (x, y).
+struct TexturePlace
+{
+    uint32_t set = 0; ///< 0: Mesh::uvs, 1: Mesh::uvs1
+    Vec2 u{1.0f, 0.0f}, v{0.0f, 1.0f}, offset{0.0f};
+};
+
+/// Holds the parameters of a physical material that most surfaces do not have.
+struct MaterialDetail
+{
+    bool vertexColors = false;   ///< base colour and alpha are multiplied with Mesh::colors
+    bool thinWalled = false;     ///< light passes without being bent: KHR_materials_transmission
+    Vec3 attenuationColor{1.0f}; ///< KHR_materials_volume
+    float attenuationDistance = 0.0f; ///< [scene units, not engine units]; 0: nothing is absorbed
+    float specular = 1.0f;            ///< KHR_materials_specular
+    Vec3 specularColor{1.0f};
+    float clearcoat = 0.0f; ///< KHR_materials_clearcoat
+    float clearcoatRoughness = 0.0f;
+    Vec3 sheenColor{0.0f}; ///< KHR_materials_sheen
+    float sheenRoughness = 0.0f;
+    float normalScale = 1.0f;
+
+    /// Textures by role, indices into Scene::textures or kInvalid. Those of the first four roles
+    /// are members of Material.
+    std::array<uint32_t, kTextureRoles> textures = noTextures();
+    std::array<TexturePlace, kTextureRoles> places;
+
+    static constexpr std::array<uint32_t, kTextureRoles> noTextures()
+    {
+        std::array<uint32_t, kTextureRoles> none{};
+        for (uint32_t& texture : none)
+            texture = kInvalid;
+        return none;
+    }
+
+    bool absorbs() const
+    {
+        return !thinWalled && attenuationDistance > 0.0f && attenuationColor != Vec3(1.0f);
+    }
+};
+
 /// All colours are linear if the scene is, and display-referred otherwise (Scene::displayReferred).
 struct Material
 {
@@ -120,6 +180,8 @@ struct Material
     float transmission = 0.0f; ///< share of the dielectric base that is clear
     float ior = 1.5f;
 
+    std::shared_ptr<const MaterialDetail> detail; ///< null: the defaults
+
     Vec3 emission{0.0f}; ///< Physical: radiance [W/(m^2 sr)]; FixedFunction: GL emission
 
     // MaterialTable::opacity tells how these members make the surface's opacity.
@@ -141,11 +203,38 @@ struct Material
     Stamp changed = 0;
 };
 
+/// Returns the texture of a role, kInvalid if there is none.
+inline uint32_t textureOf(const Material& m, TextureRole role)
+{
+    switch (role)
+    {
+    case kBaseColorRole:
+        return m.baseColorTexture;
+    case kMetallicRoughnessRole:
+        return m.metallicRoughnessTexture;
+    case kTransmissionRole:
+        return m.transmissionTexture;
+    case kEmissionRole:
+        return m.emissionTexture;
+    default:
+        return m.detail ? m.detail->textures[role] : kInvalid;
+    }
+}
+
+/// Returns whether some texture of the material decides on colours or lobes.
 inline bool isTextured(const Material& m)
 {
-    return m.baseColorTexture != kInvalid || m.metallicRoughnessTexture != kInvalid ||
-           m.transmissionTexture != kInvalid || m.emissionTexture != kInvalid ||
-           m.second.texture != kInvalid;
+    if (m.second.texture != kInvalid) return true;
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        if (role != kNormalRole && textureOf(m, static_cast<TextureRole>(role)) != kInvalid)
+            return true;
+    return false;
+}
+
+/// Returns whether a texture decides on the shading normals.
+inline bool hasNormalMap(const Material& m)
+{
+    return m.detail && m.detail->textures[kNormalRole] != kInvalid && m.detail->normalScale != 0.0f;
 }
 
 /// Returns whether the osg::Light of a number is enabled on the surface.
@@ -170,7 +259,7 @@ inline bool isInvisible(const Material& m)
 {
     return m.model == MaterialModel::Physical && m.transmission >= 1.0f && m.metallic <= 0.0f &&
            usableIor(m.ior) == 1.0f && m.baseColor == Vec3(1.0f) && m.emission == Vec3(0.0f) &&
-           m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid;
+           m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid && !m.detail;
 }
 
 enum class TextureWrap : uint8_t

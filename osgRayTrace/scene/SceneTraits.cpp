@@ -22,6 +22,15 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.fixedFunction = true;
         return;
     }
+    if (const MaterialDetail* detail = material.detail.get())
+    {
+        traits.vertexColors |= detail->vertexColors;
+        traits.normalMaps |= hasNormalMap(material);
+        traits.panes |= detail->thinWalled && material.transmission > 0.0f;
+        traits.attenuation |= detail->absorbs();
+        traits.specular |=
+            detail->clearcoat > 0.0f && detail->clearcoatRoughness < kMirrorRoughness;
+    }
     const bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
     const bool isSeen = material.culling != FaceCulling::FrontAndBack; // by camera rays
     traits.physical |=

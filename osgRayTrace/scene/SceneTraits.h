@@ -18,6 +18,9 @@ struct SceneTraits
     bool physical = false;      ///< some material is Physical and more than a lamp
     bool specular = false;      ///< mirror-like reflection somewhere
     bool transmission = false;
+    bool normalMaps = false;  ///< some texture decides on shading normals
+    bool panes = false;       ///< some surface lets light pass straight: see MaterialTable::pane
+    bool attenuation = false; ///< light is absorbed within some body
     bool deltaLights = false; ///< directional or point lights
     bool areaLights = false;  ///< parallelogram or mesh lights
     bool environment = false; ///< light from all around

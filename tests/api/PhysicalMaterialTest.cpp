@@ -122,11 +122,44 @@ TEST_CASE("material: values are kept within their range", "[api][material]")
     CHECK(material->getEmission() == osg::Vec3(2.0f, 0.0f, 0.0f));
 }
 
+TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them", "[api][material]")
+{
+    const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    CHECK(material->getAlpha() == 1.0f);
+    CHECK_FALSE(material->getVertexColors());
+    CHECK(material->getNormalScale() == 1.0f);
+    CHECK_FALSE(material->getThinWalled());
+    CHECK(material->getAttenuationColor() == osg::Vec3(1.0f, 1.0f, 1.0f));
+    CHECK(material->getAttenuationDistance() == 0.0f);
+    CHECK(material->getSpecular() == 1.0f);
+    CHECK(material->getSpecularColor() == osg::Vec3(1.0f, 1.0f, 1.0f));
+    CHECK(material->getClearcoat() == 0.0f);
+    CHECK(material->getClearcoatRoughness() == 0.0f);
+    CHECK(material->getSheenColor() == osg::Vec3());
+    CHECK(material->getSheenRoughness() == 0.0f);
+
+    material->setAttenuationDistance(-1.0f);
+    CHECK(material->getAttenuationDistance() == 0.0f);
+    material->setSpecularColor(osg::Vec3(3.0f, -1.0f, 0.0f));
+    CHECK(material->getSpecularColor() == osg::Vec3(3.0f, 0.0f, 0.0f));
+    material->setNormalScale(-20.0f);
+    CHECK(material->getNormalScale() == -16.0f);
+    PhysicalMaterial::TexturePlace place;
+    place.unit = 5;
+    place.offset.set(std::numeric_limits<float>::quiet_NaN(), 2.0f);
+    material->setTexturePlace(PhysicalMaterial::NORMAL_TEXTURE, place);
+    const auto& kept = material->getTexturePlace(PhysicalMaterial::NORMAL_TEXTURE);
+    CHECK(kept.unit == 1);
+    CHECK(kept.offset == osg::Vec2(0.0f, 2.0f));
+    CHECK(kept.scale == osg::Vec2(1.0f, 1.0f));
+    CHECK(material->getTexturePlace(PhysicalMaterial::EMISSION_TEXTURE).unit == 0);
+}
+
 TEST_CASE("material: comparison sees every parameter", "[api][material]")
 {
     const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
     std::vector<osg::ref_ptr<PhysicalMaterial>> all;
-    for (int i = 0; i < 11; ++i)
+    for (int i = 0; i < 11 + 12 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
     {
         all.push_back(new PhysicalMaterial);
     }
@@ -140,6 +173,28 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
     all[8]->setMetallicRoughnessTexture(texture);
     all[9]->setTransmissionTexture(texture);
     all[10]->setEmissionTexture(texture);
+    all[11]->setAlpha(0.5f);
+    all[12]->setVertexColors(true);
+    all[13]->setNormalScale(2.0f);
+    all[14]->setThinWalled(true);
+    all[15]->setAttenuationColor(osg::Vec3(0.5f, 1.0f, 1.0f));
+    all[16]->setAttenuationDistance(2.0f);
+    all[17]->setSpecular(0.5f);
+    all[18]->setSpecularColor(osg::Vec3(0.5f, 1.0f, 1.0f));
+    all[19]->setClearcoat(0.5f);
+    all[20]->setClearcoatRoughness(0.5f);
+    all[21]->setSheenColor(osg::Vec3(0.5f, 0.0f, 0.0f));
+    all[22]->setSheenRoughness(0.5f);
+    std::size_t next = 23;
+    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+    {
+        const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
+        if (i >= PhysicalMaterial::NORMAL_TEXTURE) all[next++]->setTexture(use, texture);
+        PhysicalMaterial::TexturePlace place;
+        place.rotation = 1.0f;
+        all[next++]->setTexturePlace(use, place);
+    }
+    REQUIRE(next == all.size());
 
     for (size_t i = 0; i < all.size(); ++i)
     {

@@ -86,6 +86,35 @@ TEST_CASE("viewer: o prints the names of what is under the mouse", "[apps][gl]")
     CHECK(printed(0.99f) == "nothing is under the mouse\n");
 }
 
+TEST_CASE("viewer: v goes from camera to camera of the model", "[apps]")
+{
+    const osg::ref_ptr<osg::Group> model = new osg::Group;
+    for (const int number : {1, 2})
+    {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrix::translate(0, 0, 10 * number));
+        const osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+        camera->setName("camera" + std::to_string(number));
+        camera->setProjectionMatrixAsPerspective(20.0 * number, 1.0, 1.0, 100.0);
+        place->addChild(camera);
+        model->addChild(place);
+    }
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    scene->addChild(model);
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    osgViewer::Viewer viewer;
+    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    const engine::test::Messages messages;
+    for (const int number : {1, 2, 1})
+    {
+        CHECK(send(*keys, viewer, Event::KEYDOWN, 'v'));
+        CHECK(viewer.getCameraManipulator()->getMatrix().getTrans().z() == Approx(10.0 * number));
+        double fovy = 0.0, aspect = 0.0, nearest = 0.0, farthest = 0.0;
+        viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, nearest, farthest);
+        CHECK(fovy == Approx(20.0 * number));
+    }
+}
+
 TEST_CASE("viewer: the status line says how far the picture is, and what is not as usual",
           "[apps][gl]")
 {

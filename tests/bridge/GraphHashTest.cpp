@@ -80,6 +80,40 @@ TEST_CASE("graph hash: changes with what is traced, and with nothing else", "[br
     };
     CHECK_FALSE(changed());
 
+    SECTION("every parameter of a physical material")
+    {
+        physical->setAlpha(0.5f);
+        CHECK(changed());
+        physical->setVertexColors(true);
+        CHECK(changed());
+        physical->setNormalScale(0.5f);
+        CHECK(changed());
+        physical->setThinWalled(true);
+        CHECK(changed());
+        physical->setAttenuationColor(osg::Vec3(0.5f, 1.0f, 1.0f));
+        CHECK(changed());
+        physical->setAttenuationDistance(2.0f);
+        CHECK(changed());
+        physical->setSpecular(0.5f);
+        CHECK(changed());
+        physical->setSpecularColor(osg::Vec3(0.5f, 1.0f, 1.0f));
+        CHECK(changed());
+        physical->setClearcoat(0.5f);
+        CHECK(changed());
+        physical->setClearcoatRoughness(0.5f);
+        CHECK(changed());
+        physical->setSheenColor(osg::Vec3(0.5f, 0.0f, 0.0f));
+        CHECK(changed());
+        physical->setSheenRoughness(0.5f);
+        CHECK(changed());
+        physical->setTexture(PhysicalMaterial::SHEEN_COLOR_TEXTURE, texture);
+        CHECK(changed());
+        PhysicalMaterial::TexturePlace place;
+        place.rotation = 0.5f;
+        physical->setTexturePlace(PhysicalMaterial::SHEEN_COLOR_TEXTURE, place);
+        CHECK(changed());
+        CHECK_FALSE(changed());
+    }
     SECTION("the graph")
     {
         transform->setMatrix(osg::Matrix::translate(1e-3, 0.0, 0.0));

@@ -122,7 +122,7 @@ TEST_CASE("material files: what is wrong is named, with its line", "[bridge]")
 
     CHECK_THAT(parameterError("\"roughnes\": 1"),
                Contains("m.json:3: nodes: 'cow': 'roughnes' is no parameter; there are baseColor, "
-                        "metallic, roughness, transmission, ior, emission"));
+                        "metallic, roughness, transmission, ior, emission, alpha"));
     CHECK_THAT(parameterError("\"ior\": 0.9"),
                Contains("m.json:3: nodes: 'cow': 'ior': 0.9 is not from 1.0 to 4.0"));
     CHECK_THAT(parameterError("\"baseColor\": [0.5, 1.5, 0]"),

@@ -128,6 +128,59 @@ TEST_CASE("serializers: PhysicalMaterial keeps every parameter", "[plugins]")
     }
 }
 
+TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugins]")
+{
+    const auto material = glass();
+    const std::string plain = written(*material, kFormats[0]);
+    CHECK(plain.find("Details") == std::string::npos); // as files of before, which are read above
+    material->setAlpha(0.25f);
+    material->setVertexColors(true);
+    material->setNormalScale(-0.1f);
+    material->setThinWalled(true);
+    material->setAttenuationColor(osg::Vec3(0.1f, 0.2f, 0.3f));
+    material->setAttenuationDistance(1e-20f);
+    material->setSpecular(0.7f);
+    material->setSpecularColor(osg::Vec3(1e6f, 0.5f, 0.0f));
+    material->setClearcoat(0.9f);
+    material->setClearcoatRoughness(0.8f);
+    material->setSheenColor(osg::Vec3(0.6f, 0.0f, 1.0f));
+    material->setSheenRoughness(0.3f);
+    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+    {
+        const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
+        material->setTexture(use, texture(static_cast<unsigned char>(10 + i)));
+        PhysicalMaterial::TexturePlace place;
+        place.unit = i % 2;
+        place.offset.set(0.1f * i, -0.2f);
+        place.rotation = 0.3f;
+        place.scale.set(2.0f, 1.0f / 3.0f);
+        material->setTexturePlace(use, place);
+    }
+    const osg::ref_ptr<osg::Geode> scene = new osg::Geode; // with something behind the material
+    scene->getOrCreateStateSet()->setAttribute(material);
+    scene->addDrawable(new osg::Geometry);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copied = roundTrip(*scene, format);
+        REQUIRE(copied->getNumDrawables() == 1);
+        const auto* copy = dynamic_cast<const PhysicalMaterial*>(
+            copied->getStateSet()->getAttribute(PhysicalMaterial::ATTRIBUTE_TYPE));
+        REQUIRE(copy);
+        for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+        {
+            const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
+            CHECK(valueOf(copy->getTexture(use)) == 10 + i);
+            CHECK(copy->getTexturePlace(use) == material->getTexturePlace(use));
+        }
+        const osg::ref_ptr<PhysicalMaterial> own = new PhysicalMaterial(*copy);
+        for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+            own->setTexture(static_cast<PhysicalMaterial::TextureUse>(i),
+                            material->getTexture(static_cast<PhysicalMaterial::TextureUse>(i)));
+        CHECK(own->compare(*material) == 0);
+    }
+}
+
 TEST_CASE("serializers: numbers have a point in any locale", "[plugins]")
 {
     const auto material = glass();

@@ -100,6 +100,28 @@ void hashState(Hasher& hasher, const Material& material)
     hasher.add(material.clockwise);
 }
 
+void hashDetail(Hasher& hasher, const MaterialDetail& detail)
+{
+    hasher.add(detail.vertexColors);
+    hasher.add(detail.thinWalled);
+    for (const Vec3& color : {detail.attenuationColor, detail.specularColor, detail.sheenColor})
+        hasher.add(color);
+    for (const float value : {detail.attenuationDistance, detail.specular, detail.clearcoat,
+                              detail.clearcoatRoughness, detail.sheenRoughness, detail.normalScale})
+        hasher.add(value);
+    for (const uint32_t texture : detail.textures)
+        hasher.add(texture);
+    for (const TexturePlace& place : detail.places)
+    {
+        hasher.add(place.set);
+        for (const Vec2& v : {place.u, place.v, place.offset})
+        {
+            hasher.add(v.x);
+            hasher.add(v.y);
+        }
+    }
+}
+
 void hashMaterial(Hasher& hasher, const Material& material)
 {
     for (const Vec3& color : {material.ambient, material.diffuse, material.specular,
@@ -115,6 +137,7 @@ void hashMaterial(Hasher& hasher, const Material& material)
     for (const uint32_t lights : material.moreLights)
         hasher.add(lights);
     hasher.add(material.model);
+    if (material.detail) hashDetail(hasher, *material.detail);
     hashState(hasher, material);
 }
 
@@ -165,6 +188,7 @@ void hashScene(Hasher& hasher, const Scene& scene)
         hasher.addAll(mesh->rs);
         hasher.addAll(mesh->rs1);
         hasher.addAll(mesh->colors);
+        hasher.addAll(mesh->tangents);
     }
     for (const Instance& instance : scene.instances)
     {

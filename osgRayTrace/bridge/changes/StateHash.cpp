@@ -43,12 +43,21 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
 {
     hasher.add(material.getBaseColor(), material.getMetallic(), material.getRoughness(),
                material.getTransmission(), material.getIor(), material.getEmission());
-    for (const osg::Texture2D* texture :
-         {material.getBaseColorTexture(), material.getMetallicRoughnessTexture(),
-          material.getTransmissionTexture(), material.getEmissionTexture()})
+    hasher.add(
+        material.getAlpha(), material.getVertexColors(), material.getNormalScale(),
+        material.getThinWalled(), material.getAttenuationColor(), material.getAttenuationDistance(),
+        material.getSpecular(), material.getSpecularColor(), material.getClearcoat(),
+        material.getClearcoatRoughness(), material.getSheenColor(), material.getSheenRoughness());
+    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
+        const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
+        const osg::Texture2D* texture = material.getTexture(use);
         hasher.addObject(texture);
-        if (texture) addTexture(hasher, *texture);
+        if (!texture) continue;
+        addTexture(hasher, *texture);
+        const PhysicalMaterial::TexturePlace& place = material.getTexturePlace(use);
+        hasher.add(place.unit, place.offset.x(), place.offset.y(), place.rotation, place.scale.x(),
+                   place.scale.y());
     }
 }
 

@@ -115,6 +115,8 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.light-model", "light models with another ambient light than the first"},
     {"approximated.logic-operation", "drawables with a logic operation, which is not done"},
     {"approximated.no-texture-coordinates", "textured materials without texture coordinates"},
+    {"approximated.physical-parameter",
+     "physical materials with a parameter that is not modelled yet"},
     {"approximated.pixel-format", "textures whose pixels cannot be read: magenta"},
     {"approximated.polygon-mode", "drawables of lines or points by their polygon mode, filled"},
     {"approximated.polygon-offset",

@@ -24,10 +24,12 @@ namespace
 /// Returns whether a texture of the material is one that only OpenGL has.
 bool looksIntoOpenGL(const PhysicalMaterial& material, const TextureConverter& textures)
 {
-    for (const osg::Texture2D* texture :
-         {material.getBaseColorTexture(), material.getMetallicRoughnessTexture(),
-          material.getTransmissionTexture(), material.getEmissionTexture()})
+    for (int use = 0; use < PhysicalMaterial::NUMBER_OF_TEXTURES; ++use)
+    {
+        const osg::Texture2D* texture =
+            material.getTexture(static_cast<PhysicalMaterial::TextureUse>(use));
         if (texture && isOnlyInOpenGL(*texture) && !textures.knows(*texture)) return true;
+    }
     return false;
 }
 
@@ -61,6 +63,10 @@ const char* untracedCamera(const osg::Camera& camera)
     if (camera.getRenderTargetImplementation() != osg::Camera::FRAME_BUFFER ||
         !camera.getBufferAttachmentMap().empty())
         return "not-traced.render-to-texture-camera";
+    // Readers of models make such cameras of the models' own: places to look from.
+    const bool drawsNothing = camera.getRenderOrder() == osg::Camera::NESTED_RENDER &&
+                              camera.getClearMask() == 0 && camera.getNumChildren() == 0;
+    if (drawsNothing) return nullptr;
     if (camera.getRenderOrder() != osg::Camera::NESTED_RENDER ||
         camera.getReferenceFrame() != osg::Transform::RELATIVE_RF ||
         !camera.getProjectionMatrix().isIdentity())

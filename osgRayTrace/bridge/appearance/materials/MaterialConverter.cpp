@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/common/ArrayReader.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
@@ -37,11 +38,6 @@ float finiteOr(float value, float otherwise)
 Vec3 rgb(const osg::Vec4& color)
 {
     return {finiteOr(color.r(), 0.0f), finiteOr(color.g(), 0.0f), finiteOr(color.b(), 0.0f)};
-}
-
-Vec3 rgb(const osg::Vec3& color)
-{
-    return {color.x(), color.y(), color.z()};
 }
 
 /// Enables the lights whose modes are on.
@@ -189,6 +185,7 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius)
     SurfaceInputs inputs;
     inputs.isOfSolids = hasSolidsAlone(geometry, pointRadius);
     inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
+    inputs.hasSecondCoordinates = isReadable(geometry.getTexCoordArray(1));
     const osg::Array* colors = geometry.getColorArray();
     const osg::Array::Binding binding = bindingOf(colors);
     inputs.hasVertexColors =
@@ -351,30 +348,12 @@ void MaterialConverter::applyFaces(Material& material, const GraphState& state,
 Material MaterialConverter::physical(const GraphState& state, const SurfaceInputs& inputs)
 {
     const auto& source = *state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);
-    Material material;
-    material.name = source.getName();
-    material.model = MaterialModel::Physical;
+    SurfaceInputs decodedInputs = inputs;
+    if (_rules.linear)
+        decodedInputs.overallColor =
+            Vec4(decoded(Vec3(inputs.overallColor)), inputs.overallColor.w);
+    Material material = physicalMaterial(source, decodedInputs, _textures, _report);
     enableLights(material, state);
-    material.baseColor = rgb(source.getBaseColor());
-    material.metallic = source.getMetallic();
-    material.roughness = source.getRoughness();
-    material.transmission = source.getTransmission();
-    material.ior = source.getIor();
-    material.emission = rgb(source.getEmission());
-    if (!inputs.hasTextureCoordinates)
-    {
-        if (source.getBaseColorTexture() || source.getMetallicRoughnessTexture() ||
-            source.getTransmissionTexture() || source.getEmissionTexture())
-            _report.count("approximated.no-texture-coordinates");
-        return material;
-    }
-    const auto color = TextureContent::Color;
-    const auto data = TextureContent::Data;
-    material.baseColorTexture = _textures.index(source.getBaseColorTexture(), color, _report);
-    material.emissionTexture = _textures.index(source.getEmissionTexture(), color, _report);
-    material.transmissionTexture = _textures.index(source.getTransmissionTexture(), data, _report);
-    material.metallicRoughnessTexture =
-        _textures.index(source.getMetallicRoughnessTexture(), data, _report);
     return material;
 }
 

@@ -18,6 +18,7 @@ struct SurfaceInputs
     bool hasOverallColor = false;       ///< one colour for the whole geometry
     Vec4 overallColor{1.0f};            ///< colour as OpenGL gets it, not decoded
     bool hasTextureCoordinates = false; ///< coordinates of unit 0
+    bool hasSecondCoordinates = false;  ///< coordinates of unit 1
     bool isOfSolids = false; ///< points and lines alone, traced as solids: lit in any state
 };
 

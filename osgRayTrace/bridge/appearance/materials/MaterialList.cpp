@@ -67,9 +67,11 @@ std::vector<bool> MaterialList::usedTextures(std::size_t count) const
         if (texture < used.size()) used[texture] = true;
     };
     for (const Material& m : _materials)
-        for (const uint32_t texture : {m.baseColorTexture, m.metallicRoughnessTexture,
-                                       m.transmissionTexture, m.emissionTexture, m.second.texture})
-            use(texture);
+    {
+        use(m.second.texture);
+        for (uint32_t role = 0; role < kTextureRoles; ++role)
+            use(textureOf(m, static_cast<TextureRole>(role)));
+    }
     return used;
 }
 

@@ -8,7 +8,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr double kMostEmission = 1e30;
+constexpr double kMost = 1e30;
 
 osg::Vec3 colorOf(const std::vector<double>& v)
 {
@@ -30,8 +30,31 @@ const Parameter kParameters[] = {
     {"transmission", 1, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); }},
     {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); }},
-    {"emission", 3, 0.0, kMostEmission,
+    {"emission", 3, 0.0, kMost,
      [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); }},
+    {"alpha", 1, 0.0, 1.0, [](PhysicalMaterial& m, const Values& v) { m.setAlpha(numberOf(v)); }},
+    {"normalScale", 1, -16.0, 16.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setNormalScale(numberOf(v)); }},
+    {"thinWalled", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setThinWalled(v[0] != 0.0); }},
+    {"attenuationColor", 3, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationColor(colorOf(v)); }},
+    {"attenuationDistance", 1, 0.0, kMost,
+     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationDistance(numberOf(v)); }},
+    {"specular", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setSpecular(numberOf(v)); }},
+    {"specularColor", 3, 0.0, kMost,
+     [](PhysicalMaterial& m, const Values& v) { m.setSpecularColor(colorOf(v)); }},
+    {"clearcoat", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setClearcoat(numberOf(v)); }},
+    {"clearcoatRoughness", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setClearcoatRoughness(numberOf(v)); }},
+    {"sheenColor", 3, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setSheenColor(colorOf(v)); }},
+    {"sheenRoughness", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setSheenRoughness(numberOf(v)); }},
+    {"vertexColors", 1, 0.0, 1.0,
+     [](PhysicalMaterial& m, const Values& v) { m.setVertexColors(v[0] != 0.0); }},
 };
 
 } // namespace

@@ -35,6 +35,7 @@ public:
         if (m.second.texture != kInvalid)
             add(m.second.environment, m.second.environmentColor, m.second.mapping);
         if (m.hasBack) add(m.back);
+        if (m.detail) add(*m.detail);
     }
 
     std::vector<uint32_t> take() { return std::move(_values); }
@@ -57,6 +58,25 @@ private:
             add(color);
         add(face.shininess);
         add(face.alpha);
+    }
+    void add(const MaterialDetail& d)
+    {
+        _values.push_back(1u + uint32_t(d.vertexColors) + 2u * uint32_t(d.thinWalled));
+        for (const Vec3& color : {d.attenuationColor, d.specularColor, d.sheenColor})
+            add(color);
+        for (const float value : {d.attenuationDistance, d.specular, d.clearcoat,
+                                  d.clearcoatRoughness, d.sheenRoughness, d.normalScale})
+            add(value);
+        _values.insert(_values.end(), d.textures.begin(), d.textures.end());
+        for (const TexturePlace& place : d.places)
+        {
+            _values.push_back(place.set);
+            for (const Vec2& v : {place.u, place.v, place.offset})
+            {
+                add(v.x);
+                add(v.y);
+            }
+        }
     }
     void add(TextureEnvironment environment, const Vec4& color, const TextureMapping& mapping)
     {

@@ -160,6 +160,13 @@ private:
                                          ? const_cast<osg::Texture2D*>(found.texture)
                                          : derived({red, {}, {}}));
         }
+        if (const Found found = find(kNormalField); found.texture)
+            m.setTexture(
+                PhysicalMaterial::NORMAL_TEXTURE,
+                _rule.textures[kNormalField]->channels == "rgb"
+                    ? const_cast<osg::Texture2D*>(found.texture)
+                    : derived({channelOf(kNormalField, found, 0), channelOf(kNormalField, found, 1),
+                               channelOf(kNormalField, found, 2)}));
         if (_rule.textures[kMetallicRoughnessField])
             setMetallicRoughness();
         else

@@ -70,7 +70,7 @@ struct TextureSource
     bool optional = false;    ///< true: nobody is told if it is not there
 };
 
-/// Names the textures of a rule. The last two are parts of a metallic-roughness texture.
+/// Names the textures of a rule. Roughness and metallic are parts of one texture.
 enum TextureField : unsigned int
 {
     kBaseColorField,
@@ -79,6 +79,7 @@ enum TextureField : unsigned int
     kMetallicRoughnessField,
     kRoughnessField,
     kMetallicField,
+    kNormalField,
     kTextureFields,
 };
 

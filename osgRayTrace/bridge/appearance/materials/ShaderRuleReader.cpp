@@ -57,8 +57,10 @@ struct TextureWord
 };
 
 constexpr TextureWord kTextures[kTextureFields] = {
-    {"baseColorTexture", ""},           {"emissionTexture", ""},   {"transmissionTexture", "r"},
-    {"metallicRoughnessTexture", "gb"}, {"roughnessTexture", "r"}, {"metallicTexture", "r"}};
+    {"baseColorTexture", ""},     {"emissionTexture", ""},
+    {"transmissionTexture", "r"}, {"metallicRoughnessTexture", "gb"},
+    {"roughnessTexture", "r"},    {"metallicTexture", "r"},
+    {"normalTexture", "rgb"}};
 
 const Parameter kAlphaReference = {"alphaReference", 1, 0.0, 1.0, nullptr};
 
@@ -314,11 +316,11 @@ private:
 
     bool readChannels(const LocatedJson& json, std::string& channels)
     {
+        constexpr const char* kWords[] = {"one letter", "two letters", "three letters"};
         const std::size_t count = channels.size();
         if (!readText(json, channels)) return false;
         if (channels.size() != count || channels.find_first_not_of("rgba") != std::string::npos)
-            return fail(json, "'" + channels + "' is not " +
-                                  (count == 1 ? "one letter" : "two letters") + " of rgba");
+            return fail(json, "'" + channels + "' is not " + kWords[count - 1] + " of rgba");
         return true;
     }
 

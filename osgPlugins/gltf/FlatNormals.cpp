@@ -1,0 +1,97 @@
+// FlatNormals.cpp - gives each triangle vertices of its own. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#include "osgPlugins/gltf/FlatNormals.h"
+
+#include <osg/TriangleIndexFunctor>
+
+namespace osgRayTrace::gltf
+{
+
+namespace
+{
+
+using Corners = std::vector<unsigned int>;
+
+/// Collects the corners of triangles, those without an area as well: the numbers of triangles stay
+/// those of the file.
+struct CollectCorners
+{
+    Corners corners;
+
+    void operator()(unsigned int a, unsigned int b, unsigned int c)
+    {
+        corners.insert(corners.end(), {a, b, c});
+    }
+};
+
+template <typename ArrayType>
+osg::ref_ptr<ArrayType> gathered(const osg::ref_ptr<ArrayType>& from, const Corners& corners)
+{
+    if (!from) return nullptr;
+    const osg::ref_ptr<ArrayType> result = new ArrayType(osg::Array::BIND_PER_VERTEX);
+    result->setNormalize(from->getNormalize());
+    result->reserve(corners.size());
+    for (const unsigned int corner : corners)
+        result->push_back((*from)[corner]);
+    return result;
+}
+
+osg::ref_ptr<osg::Array> gatheredColors(const osg::ref_ptr<osg::Array>& from,
+                                        const Corners& corners)
+{
+    if (const osg::ref_ptr<osg::Vec4ubArray> bytes = dynamic_cast<osg::Vec4ubArray*>(from.get()))
+        return gathered(bytes, corners);
+    return gathered(osg::ref_ptr<osg::Vec4Array>(static_cast<osg::Vec4Array*>(from.get())),
+                    corners);
+}
+
+osg::ref_ptr<osg::Vec3Array> facetNormals(const osg::Vec3Array& positions)
+{
+    const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    normals->reserve(positions.size());
+    for (std::size_t i = 0; i + 2 < positions.size(); i += 3)
+    {
+        const osg::Vec3d a = positions[i], b = positions[i + 1], c = positions[i + 2];
+        osg::Vec3d normal = (b - a) ^ (c - a);
+        if (!(normal.normalize() > 0.0)) normal.set(0.0, 0.0, 1.0);
+        normals->insert(normals->end(), 3, osg::Vec3(normal));
+    }
+    return normals;
+}
+
+} // namespace
+
+bool isOfTriangles(const osg::PrimitiveSet& primitives)
+{
+    return primitives.getMode() >= GL_TRIANGLES;
+}
+
+Vertices withFlatNormals(const Vertices& vertices, Document& document, const JsonPlace& place)
+{
+    // Corners, positions and normals, and the other arrays about as much.
+    document.take(std::uint64_t(vertices.primitives->getNumIndices()) * 3 * 64, place);
+    osg::TriangleIndexFunctor<CollectCorners> collect;
+    vertices.primitives->accept(collect);
+    const Corners& corners = collect.corners;
+
+    Vertices flat;
+    flat.positions = gathered(vertices.positions, corners);
+    flat.normals = facetNormals(*flat.positions);
+    for (const auto& texcoord : vertices.texcoords)
+        flat.texcoords.push_back(gathered(texcoord, corners));
+    flat.colors = gatheredColors(vertices.colors, corners);
+    for (const JointSet& set : vertices.jointSets)
+    {
+        JointSet own;
+        own.weights = gathered(set.weights, corners);
+        for (const unsigned int corner : corners)
+            own.joints.push_back(set.joints[corner]);
+        flat.jointSets.push_back(std::move(own));
+    }
+    for (const MorphTarget& target : vertices.targets)
+        flat.targets.push_back({gathered(target.positions, corners), nullptr});
+    flat.primitives = new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
+    return flat;
+}
+
+} // namespace osgRayTrace::gltf

@@ -1,0 +1,59 @@
+// MaterialValues.h - what a glTF material says, extension by extension. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgPlugins/gltf/TextureReader.h"
+
+#include <osg/Vec3>
+#include <osg/Vec4>
+
+#include <optional>
+#include <string>
+
+namespace osgRayTrace::gltf
+{
+
+enum class AlphaMode
+{
+    Opaque,
+    Mask,
+    Blend
+};
+
+/// The parameters of a material with glTF's defaults; colours are linear.
+struct MaterialValues
+{
+    std::string name;
+    osg::Vec4 baseColor{1.0f, 1.0f, 1.0f, 1.0f};
+    std::optional<TextureUse> baseColorTexture;
+    float metallic = 1.0f, roughness = 1.0f;
+    std::optional<TextureUse> metallicRoughnessTexture;
+    std::optional<TextureUse> normalTexture;
+    float normalScale = 1.0f;
+    osg::Vec3 emission; ///< times KHR_materials_emissive_strength [cd/m^2]
+    std::optional<TextureUse> emissionTexture;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    bool unlit = false;
+    float ior = 1.5f;
+    float transmission = 0.0f;
+    std::optional<TextureUse> transmissionTexture;
+    bool thinWalled = true; ///< light passes faces unbent: no KHR_materials_volume with a thickness
+    osg::Vec3 attenuationColor{1.0f, 1.0f, 1.0f};
+    float attenuationDistance = 0.0f; ///< 0: infinite
+    float specular = 1.0f;
+    osg::Vec3 specularColor{1.0f, 1.0f, 1.0f};
+    std::optional<TextureUse> specularTexture, specularColorTexture;
+    float clearcoat = 0.0f, clearcoatRoughness = 0.0f;
+    std::optional<TextureUse> clearcoatTexture, clearcoatRoughnessTexture;
+    osg::Vec3 sheenColor;
+    float sheenRoughness = 0.0f;
+    std::optional<TextureUse> sheenColorTexture, sheenRoughnessTexture;
+};
+
+/// Reads a material. Throws GltfError.
+MaterialValues materialValues(const JsonPlace& material, TextureReader& textures,
+                              Document& document);
+
+} // namespace osgRayTrace::gltf

@@ -1,0 +1,221 @@
+// MeshReader.cpp - puts arrays and surfaces together. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#include "osgPlugins/gltf/MeshReader.h"
+
+#include "osgPlugins/gltf/Extras.h"
+#include "osgPlugins/gltf/FlatNormals.h"
+#include "osgPlugins/gltf/Srgb.h"
+
+#include <osgAnimation/MorphTransformSoftware>
+
+namespace osgRayTrace::gltf
+{
+
+namespace
+{
+
+constexpr std::uint64_t kPrimitiveBytes = 1024; ///< of a Geometry without its arrays
+constexpr unsigned int kTangentAttribute = 6;   ///< OpenGL's fixed function has no use for it
+
+/// Returns the colours of what is not lit: the material's factor times those of the vertices.
+osg::ref_ptr<osg::Array> unlitColors(const osg::Array* colors, const osg::Vec4& factor)
+{
+    if (!colors)
+    {
+        const osg::ref_ptr<osg::Vec4Array> one = new osg::Vec4Array(osg::Array::BIND_OVERALL);
+        one->push_back(displayColor(factor));
+        return one;
+    }
+    const osg::ref_ptr<osg::Vec4Array> product = new osg::Vec4Array(osg::Array::BIND_PER_VERTEX);
+    const auto* bytes = dynamic_cast<const osg::Vec4ubArray*>(colors);
+    const auto* floats = dynamic_cast<const osg::Vec4Array*>(colors);
+    for (unsigned int i = 0; i < colors->getNumElements(); ++i)
+    {
+        osg::Vec4 color = floats ? (*floats)[i] : osg::Vec4();
+        for (int c = 0; bytes && c < 4; ++c)
+            color[c] = static_cast<float>((*bytes)[i][c]) / 255.0f;
+        for (int c = 0; c < 3; ++c)
+            color[c] = linearValue(color[c]) * factor[c];
+        color.a() *= factor.a();
+        product->push_back(displayColor(color));
+    }
+    return product;
+}
+
+/// Sets arrays, primitives and state. The arrays may be shared with other geometries.
+void fill(osg::Geometry& geometry, const Vertices& vertices, const Surface& surface)
+{
+    const auto perVertex = osg::Array::BIND_PER_VERTEX;
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+    geometry.setVertexArray(vertices.positions.get());
+    if (vertices.normals) geometry.setNormalArray(vertices.normals.get(), perVertex);
+    if (vertices.tangents)
+        geometry.setVertexAttribArray(kTangentAttribute, vertices.tangents.get(), perVertex);
+    for (unsigned int set = 0; set < vertices.texcoords.size(); ++set)
+        geometry.setTexCoordArray(set, vertices.texcoords[set].get(), perVertex);
+    const auto& extra = surface.extraUnit;
+    if (extra && extra->set < vertices.texcoords.size() && extra->unit >= vertices.texcoords.size())
+        geometry.setTexCoordArray(extra->unit, vertices.texcoords[extra->set].get(), perVertex);
+    const bool factored = !surface.lit && surface.color != osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    if (factored || (!surface.lit && !vertices.colors))
+        geometry.setColorArray(unlitColors(vertices.colors.get(), surface.color).get());
+    else if (vertices.colors)
+        geometry.setColorArray(vertices.colors.get(), perVertex);
+    geometry.addPrimitiveSet(vertices.primitives.get());
+    geometry.setStateSet(surface.states.get());
+}
+
+osg::ref_ptr<osg::Vec3Array> clone(const osg::Vec3Array& array)
+{
+    return new osg::Vec3Array(array, osg::CopyOp::DEEP_COPY_ARRAYS);
+}
+
+} // namespace
+
+bool MeshReader::isMorphed(std::size_t mesh) const
+{
+    const JsonPlace primitives = _document->element("meshes", mesh).at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (primitives[i].sizeOf("targets") > 0) return true;
+    return false;
+}
+
+/// Returns the primitive's material: that of the chosen variant, if it has one.
+std::optional<std::size_t> MeshReader::materialOf(const JsonPlace& primitive) const
+{
+    const std::size_t count = _document->count("materials");
+    const auto own = primitive.indexOf("material", count);
+    const auto mapped = primitive.extension("KHR_materials_variants");
+    const auto list = _document->root().extension("KHR_materials_variants");
+    const std::string& wanted = _document->options().variant;
+    if (!mapped || !list || wanted.empty()) return own;
+    const JsonPlace variants = list->at("variants");
+    const JsonPlace mappings = mapped->at("mappings");
+    for (std::size_t i = 0; i < mappings.size(); ++i)
+    {
+        const JsonPlace ofMapping = mappings[i].at("variants");
+        for (std::size_t k = 0; k < ofMapping.size(); ++k)
+        {
+            const std::size_t variant = ofMapping[k].index(variants.size());
+            if (variants[variant].textOr("name", "") == wanted)
+                return mappings[i].at("material").index(count);
+        }
+    }
+    return own;
+}
+
+const std::vector<MeshReader::Primitive>& MeshReader::primitives(std::size_t mesh)
+{
+    const auto held = _primitives.find(mesh);
+    if (held != _primitives.end()) return held->second;
+    const JsonPlace places = _document->element("meshes", mesh).at("primitives");
+    std::vector<Primitive> result;
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+        const JsonPlace place = places[i];
+        _document->take(kPrimitiveBytes, place);
+        Vertices vertices = _vertices.read(place);
+        if (!vertices.primitives) continue;
+        const auto material = materialOf(place);
+        const bool unlit =
+            material && _document->element("materials", *material).extension("KHR_materials_unlit");
+        if (!vertices.normals && !unlit && isOfTriangles(*vertices.primitives))
+            vertices = withFlatNormals(vertices, *_document, place);
+        const SurfaceUse use{vertices.colors != nullptr, vertices.normals != nullptr};
+        result.push_back({place, std::move(vertices), &_surfaces.read(material, use)});
+    }
+    return _primitives.emplace(mesh, std::move(result)).first->second;
+}
+
+osg::ref_ptr<osg::Geode> MeshReader::emptyGeode(std::size_t mesh) const
+{
+    const JsonPlace place = _document->element("meshes", mesh);
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->setName(place.textOr("name", ""));
+    setExtras(place, *geode);
+    return geode;
+}
+
+osg::ref_ptr<osg::Geode> MeshReader::shared(std::size_t mesh)
+{
+    osg::ref_ptr<osg::Geode>& held = _shared[mesh];
+    if (held) return held;
+    const osg::ref_ptr<osg::Geode> geode = emptyGeode(mesh);
+    for (const Primitive& primitive : primitives(mesh))
+    {
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setName(geode->getName());
+        fill(*geometry, primitive.vertices, *primitive.surface);
+        geode->addDrawable(geometry.get());
+    }
+    held = geode;
+    return held;
+}
+
+std::vector<float> MeshReader::weights(std::size_t mesh, const JsonPlace& node) const
+{
+    const JsonPlace place = _document->element("meshes", mesh);
+    const auto list = node.find("weights") ? node.find("weights") : place.find("weights");
+    std::vector<float> values;
+    for (std::size_t i = 0; list && i < list->size(); ++i)
+        values.push_back((*list)[i].number());
+    return values;
+}
+
+osg::ref_ptr<osgAnimation::MorphGeometry>
+MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weights) const
+{
+    const Vertices& vertices = primitive.vertices;
+    const osg::ref_ptr<osgAnimation::MorphGeometry> morph = new osgAnimation::MorphGeometry;
+    fill(*morph, vertices, *primitive.surface);
+    // The transform writes into these.
+    _document->take(vertices.count() * 48, primitive.place);
+    morph->setVertexArray(clone(*vertices.positions).get());
+    if (vertices.normals)
+        morph->setNormalArray(clone(*vertices.normals).get(), osg::Array::BIND_PER_VERTEX);
+    morph->setMethod(osgAnimation::MorphGeometry::RELATIVE);
+    bool normals = vertices.normals != nullptr;
+    for (std::size_t i = 0; i < vertices.targets.size(); ++i)
+    {
+        const MorphTarget& target = vertices.targets[i];
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(target.positions.get());
+        if (target.normals)
+            geometry->setNormalArray(target.normals.get(), osg::Array::BIND_PER_VERTEX);
+        normals = normals && target.normals;
+        morph->addMorphTarget(geometry.get(), i < weights.size() ? weights[i] : 0.0f);
+    }
+    morph->setMorphNormals(normals);
+    morph->setMorphTransformImplementation(new osgAnimation::MorphTransformSoftware);
+    morph->transformSoftwareMethod();
+    return morph;
+}
+
+osg::ref_ptr<osg::Geode> MeshReader::own(std::size_t mesh, const JsonPlace& node, const Skin* skin)
+{
+    const osg::ref_ptr<osg::Geode> geode = emptyGeode(mesh);
+    const std::vector<float> morphWeights = weights(mesh, node);
+    for (const Primitive& primitive : primitives(mesh))
+    {
+        _document->take(kPrimitiveBytes, primitive.place);
+        osg::ref_ptr<osg::Geometry> geometry;
+        if (primitive.vertices.targets.empty())
+        {
+            geometry = new osg::Geometry;
+            fill(*geometry, primitive.vertices, *primitive.surface);
+        }
+        else
+            geometry = morphed(primitive, morphWeights);
+        geometry->setName(geode->getName());
+        if (skin && !skin->bones.empty() && !primitive.vertices.jointSets.empty())
+        {
+            _document->take(primitive.vertices.count() * 96, primitive.place);
+            geometry = riggedGeometry(*geometry, primitive.vertices, *skin, primitive.place);
+        }
+        geode->addDrawable(geometry.get());
+    }
+    return geode;
+}
+
+} // namespace osgRayTrace::gltf

@@ -1,0 +1,287 @@
+// MaterialDetails.cpp - parameters as names and words, then the textures. Layer: plugins.
+// SPDX-License-Identifier: MIT
+#include "MaterialDetails.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/Notify>
+#include <osgDB/InputStream>
+#include <osgDB/OutputStream>
+
+#include <cstring>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using osgRayTrace::PhysicalMaterial;
+
+namespace
+{
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+constexpr const char* kTextures[PhysicalMaterial::NUMBER_OF_TEXTURES] = {
+    "baseColorTexture",
+    "metallicRoughnessTexture",
+    "transmissionTexture",
+    "emissionTexture",
+    "normalTexture",
+    "specularTexture",
+    "specularColorTexture",
+    "clearcoatTexture",
+    "clearcoatRoughnessTexture",
+    "sheenColorTexture",
+    "sheenRoughnessTexture"};
+
+PhysicalMaterial::TextureUse useOf(int number)
+{
+    return static_cast<PhysicalMaterial::TextureUse>(number);
+}
+
+/// Returns whether a texture is one that the wrapper has no serializer of its own for.
+bool isDetail(int number)
+{
+    return number >= PhysicalMaterial::NORMAL_TEXTURE;
+}
+
+std::string wordOf(std::initializer_list<float> values)
+{
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(std::numeric_limits<float>::max_digits10);
+    for (const float value : values)
+        text << (text.tellp() > 0 ? "," : "") << value;
+    return text.str();
+}
+
+std::string wordOf(const osg::Vec3& v)
+{
+    return wordOf({v.x(), v.y(), v.z()});
+}
+
+std::vector<float> valuesOf(const std::string& word, std::size_t count)
+{
+    std::istringstream text(word);
+    text.imbue(std::locale::classic());
+    std::vector<float> values;
+    float value = 0.0f;
+    while (text >> value)
+    {
+        values.push_back(value);
+        text.ignore(1, ',');
+    }
+    values.resize(count, 0.0f);
+    return values;
+}
+
+/// Describes a parameter that is a number, a flag or a colour.
+struct Parameter
+{
+    const char* name;
+    std::string (*get)(const PhysicalMaterial&);
+    void (*set)(PhysicalMaterial&, const std::string&);
+};
+
+#define OSGRAYTRACE_NUMBER(name, Name)                                                             \
+    {                                                                                              \
+        name, [](const PhysicalMaterial& m) { return wordOf({float(m.get##Name())}); },            \
+            [](PhysicalMaterial& m, const std::string& word)                                       \
+        { m.set##Name(valuesOf(word, 1)[0]); }                                                     \
+    }
+#define OSGRAYTRACE_FLAG(name, Name)                                                               \
+    {                                                                                              \
+        name, [](const PhysicalMaterial& m) { return wordOf({m.get##Name() ? 1.0f : 0.0f}); },     \
+            [](PhysicalMaterial& m, const std::string& word)                                       \
+        { m.set##Name(valuesOf(word, 1)[0] != 0.0f); }                                             \
+    }
+#define OSGRAYTRACE_COLOR(name, Name)                                                              \
+    {                                                                                              \
+        name, [](const PhysicalMaterial& m) { return wordOf(m.get##Name()); },                     \
+            [](PhysicalMaterial& m, const std::string& word)                                       \
+        {                                                                                          \
+            const std::vector<float> v = valuesOf(word, 3);                                        \
+            m.set##Name(osg::Vec3(v[0], v[1], v[2]));                                              \
+        }                                                                                          \
+    }
+
+const Parameter kParameters[] = {OSGRAYTRACE_NUMBER("alpha", Alpha),
+                                 OSGRAYTRACE_FLAG("vertexColors", VertexColors),
+                                 OSGRAYTRACE_NUMBER("normalScale", NormalScale),
+                                 OSGRAYTRACE_FLAG("thinWalled", ThinWalled),
+                                 OSGRAYTRACE_COLOR("attenuationColor", AttenuationColor),
+                                 OSGRAYTRACE_NUMBER("attenuationDistance", AttenuationDistance),
+                                 OSGRAYTRACE_NUMBER("specular", Specular),
+                                 OSGRAYTRACE_COLOR("specularColor", SpecularColor),
+                                 OSGRAYTRACE_NUMBER("clearcoat", Clearcoat),
+                                 OSGRAYTRACE_NUMBER("clearcoatRoughness", ClearcoatRoughness),
+                                 OSGRAYTRACE_COLOR("sheenColor", SheenColor),
+                                 OSGRAYTRACE_NUMBER("sheenRoughness", SheenRoughness)};
+
+/// Returns the parameters that are not defaults, by name. The word of a texture is 1.
+Words wordsOf(const PhysicalMaterial& material)
+{
+    const osg::ref_ptr<PhysicalMaterial> plain = new PhysicalMaterial;
+    Words words;
+    for (const Parameter& parameter : kParameters)
+    {
+        std::string word = parameter.get(material);
+        if (word != parameter.get(*plain)) words.emplace_back(parameter.name, std::move(word));
+    }
+    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+    {
+        const PhysicalMaterial::TexturePlace& p = material.getTexturePlace(useOf(i));
+        if (!(p == PhysicalMaterial::TexturePlace()))
+            words.emplace_back(kTextures[i] + std::string("Place"),
+                               wordOf({float(p.unit), p.offset.x(), p.offset.y(), p.rotation,
+                                       p.scale.x(), p.scale.y()}));
+        if (isDetail(i) && material.getTexture(useOf(i))) words.emplace_back(kTextures[i], "1");
+    }
+    return words;
+}
+
+/// Returns the number of the texture that a word is about, or -1.
+int textureOf(const std::string& name, const char* suffix)
+{
+    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+        if (name == kTextures[i] + std::string(suffix)) return i;
+    return -1;
+}
+
+/// Sets what a word says; returns false if this version does not know it.
+bool setWord(PhysicalMaterial& material, const std::string& name, const std::string& word)
+{
+    for (const Parameter& parameter : kParameters)
+    {
+        if (name != parameter.name) continue;
+        parameter.set(material, word);
+        return true;
+    }
+    const int texture = textureOf(name, "Place");
+    if (texture < 0) return false;
+    const std::vector<float> v = valuesOf(word, 6);
+    PhysicalMaterial::TexturePlace place;
+    place.unit = v[0] >= 1.0f ? 1 : 0;
+    place.offset.set(v[1], v[2]);
+    place.rotation = v[3];
+    place.scale.set(v[4], v[5]);
+    material.setTexturePlace(useOf(texture), place);
+    return true;
+}
+
+bool isTexture(const std::string& name)
+{
+    const std::string suffix = "Texture";
+    return name.size() > suffix.size() &&
+           name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0;
+}
+
+/// Begins the parameters in binary files, which have it in no other place.
+constexpr std::string_view kBinaryName = "osgRayTrace::PhysicalMaterial::Details";
+
+/// Gives access to a stream's iterator, which osgDB shows to derived classes alone.
+struct OpenStream : osgDB::InputStream
+{
+    static std::istream& bytesOf(osgDB::InputStream& stream)
+    {
+        return *(stream.*(&OpenStream::_in))->getStream();
+    }
+};
+
+/// Returns whether a binary stream goes on with the name; the stream stays where it is.
+bool isNext(osgDB::InputStream& stream)
+{
+    std::istream& bytes = OpenStream::bytesOf(stream);
+    const std::istream::pos_type here = bytes.tellg();
+    char next[64] = {};
+    const std::size_t lengthBytes = 4;
+    bytes.read(next, static_cast<std::streamsize>(lengthBytes + kBinaryName.size()));
+    const bool found = bytes.good() &&
+                       std::memcmp(next + lengthBytes, kBinaryName.data(), kBinaryName.size()) == 0;
+    bytes.clear();
+    bytes.seekg(here);
+    return found;
+}
+
+class MaterialDetails : public osgDB::BaseSerializer
+{
+public:
+    MaterialDetails() : osgDB::BaseSerializer(osgDB::BaseSerializer::READ_WRITE_PROPERTY) {}
+
+    const std::string& getName() const override { return _name; }
+
+    bool read(osgDB::InputStream& stream, osg::Object& object) override
+    {
+        std::string name;
+        if (!stream.isBinary())
+        {
+            if (!stream.matchString(_name)) return true;
+        }
+        else if (isNext(stream))
+            stream >> name;
+        else
+            return true;
+        return readWords(stream, static_cast<PhysicalMaterial&>(object));
+    }
+
+    bool write(osgDB::OutputStream& stream, const osg::Object& object) override
+    {
+        const auto& material = static_cast<const PhysicalMaterial&>(object);
+        const Words words = wordsOf(material);
+        if (words.empty()) return true;
+        if (stream.isBinary())
+            stream << std::string(kBinaryName);
+        else
+            stream << stream.PROPERTY(_name.c_str());
+        stream.writeSize(words.size());
+        stream << stream.BEGIN_BRACKET << std::endl;
+        for (const auto& [name, word] : words)
+            stream << name << word << std::endl;
+        for (const auto& [name, word] : words)
+            if (isTexture(name))
+                stream.writeObject(material.getTexture(useOf(textureOf(name, ""))));
+        stream << stream.END_BRACKET << std::endl;
+        return true;
+    }
+
+private:
+    static bool readWords(osgDB::InputStream& stream, PhysicalMaterial& material)
+    {
+        const unsigned int count = stream.readSize();
+        stream >> stream.BEGIN_BRACKET;
+        std::vector<std::string> textures;
+        for (unsigned int i = 0; i < count && !stream.getException(); ++i)
+        {
+            std::string name, word;
+            stream >> name >> word;
+            if (stream.getException()) break;
+            if (isTexture(name))
+                textures.push_back(name);
+            else if (!setWord(material, name, word))
+                OSG_WARN << "osgRayTrace: a PhysicalMaterial has a parameter " << name
+                         << ", which this version does not know; ignored" << std::endl;
+        }
+        for (const std::string& name : textures)
+        {
+            if (stream.getException()) break;
+            const osg::ref_ptr<osg::Object> object = stream.readObject();
+            const int number = textureOf(name, "");
+            auto* texture = dynamic_cast<osg::Texture2D*>(object.get());
+            if (number >= 0 && texture) material.setTexture(useOf(number), texture);
+        }
+        stream >> stream.END_BRACKET;
+        return !stream.getException();
+    }
+
+    const std::string _name = "Details";
+};
+
+} // namespace
+
+osgDB::BaseSerializer* materialDetails()
+{
+    return new MaterialDetails;
+}

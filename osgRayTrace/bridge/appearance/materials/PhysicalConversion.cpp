@@ -1,0 +1,135 @@
+// PhysicalConversion.cpp - parameters, textures and their places. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+static_assert(int(PhysicalMaterial::NUMBER_OF_TEXTURES) == int(kTextureRoles) &&
+                  int(PhysicalMaterial::NORMAL_TEXTURE) == int(kNormalRole) &&
+                  int(PhysicalMaterial::CLEARCOAT_TEXTURE) == int(kClearcoatRole) &&
+                  int(PhysicalMaterial::SHEEN_ROUGHNESS_TEXTURE) == int(kSheenRoughnessRole),
+              "the orders are the same");
+
+Vec3 rgb(const osg::Vec3& color)
+{
+    return {color.x(), color.y(), color.z()};
+}
+
+PhysicalMaterial::TextureUse useOf(uint32_t role)
+{
+    return static_cast<PhysicalMaterial::TextureUse>(role);
+}
+
+TextureContent contentOf(uint32_t role)
+{
+    const bool isColor = role == kBaseColorRole || role == kEmissionRole ||
+                         role == kSpecularColorRole || role == kSheenColorRole;
+    return isColor ? TextureContent::Color : TextureContent::Data;
+}
+
+TexturePlace placeOf(const PhysicalMaterial::TexturePlace& source)
+{
+    const float cosine = std::cos(source.rotation), sine = std::sin(source.rotation);
+    TexturePlace place;
+    place.set = source.unit;
+    place.u = Vec2(cosine, sine) * source.scale.x();
+    place.v = Vec2(-sine, cosine) * source.scale.y();
+    place.offset = Vec2(source.offset.x(), source.offset.y());
+    return place;
+}
+
+/// Returns whether the material has a value that Material itself has no member for.
+bool needsDetail(const PhysicalMaterial& source)
+{
+    const PhysicalMaterial::TexturePlace plain;
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        if (source.getTexture(useOf(role)) &&
+            (role >= kNormalRole || !(source.getTexturePlace(useOf(role)) == plain)))
+            return true;
+    return source.getVertexColors() || source.getThinWalled() ||
+           source.getAttenuationDistance() > 0.0f || source.getSpecular() != 1.0f ||
+           source.getSpecularColor() != osg::Vec3(1.0f, 1.0f, 1.0f) ||
+           source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3();
+}
+
+/// Returns whether the material has a parameter that the engine does not model yet.
+bool hasUntraced(const MaterialDetail& detail)
+{
+    return detail.textures[kNormalRole] != kInvalid || detail.vertexColors || detail.thinWalled ||
+           detail.absorbs() || detail.specular != 1.0f || detail.specularColor != Vec3(1.0f) ||
+           detail.clearcoat > 0.0f || detail.sheenColor != Vec3(0.0f);
+}
+
+MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inputs)
+{
+    MaterialDetail detail;
+    detail.vertexColors = source.getVertexColors() && inputs.hasVertexColors;
+    detail.thinWalled = source.getThinWalled();
+    detail.attenuationColor = rgb(source.getAttenuationColor());
+    detail.attenuationDistance = source.getAttenuationDistance();
+    detail.specular = source.getSpecular();
+    detail.specularColor = rgb(source.getSpecularColor());
+    detail.clearcoat = source.getClearcoat();
+    detail.clearcoatRoughness = source.getClearcoatRoughness();
+    detail.sheenColor = rgb(source.getSheenColor());
+    detail.sheenRoughness = source.getSheenRoughness();
+    detail.normalScale = source.getNormalScale();
+    return detail;
+}
+
+void setParameters(const PhysicalMaterial& source, const SurfaceInputs& inputs, Material& material)
+{
+    material.name = source.getName();
+    material.model = MaterialModel::Physical;
+    material.baseColor = rgb(source.getBaseColor());
+    material.alpha = source.getAlpha();
+    material.metallic = source.getMetallic();
+    material.roughness = source.getRoughness();
+    material.transmission = source.getTransmission();
+    material.ior = source.getIor();
+    material.emission = rgb(source.getEmission());
+    if (!source.getVertexColors() || !inputs.hasOverallColor) return;
+    material.baseColor = glm::clamp(material.baseColor * Vec3(inputs.overallColor), 0.0f, 1.0f);
+    material.alpha *= inputs.overallColor.w;
+}
+
+} // namespace
+
+Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& inputs,
+                          TextureConverter& textures, ConversionReport& report)
+{
+    Material material;
+    setParameters(source, inputs, material);
+    MaterialDetail detail = detailOf(source, inputs);
+    bool lacksCoordinates = false;
+    const auto convert = [&](uint32_t role) -> uint32_t
+    {
+        const osg::Texture2D* texture = source.getTexture(useOf(role));
+        detail.places[role] = placeOf(source.getTexturePlace(useOf(role)));
+        const bool hasCoordinates = detail.places[role].set == 0 ? inputs.hasTextureCoordinates
+                                                                 : inputs.hasSecondCoordinates;
+        if (hasCoordinates) return textures.index(texture, contentOf(role), report);
+        lacksCoordinates |= texture != nullptr;
+        return kInvalid;
+    };
+    // The order decides on the indices of the textures.
+    material.baseColorTexture = convert(kBaseColorRole);
+    material.emissionTexture = convert(kEmissionRole);
+    material.transmissionTexture = convert(kTransmissionRole);
+    material.metallicRoughnessTexture = convert(kMetallicRoughnessRole);
+    for (uint32_t role = kNormalRole; role < kTextureRoles; ++role)
+        detail.textures[role] = convert(role);
+    if (lacksCoordinates) report.count("approximated.no-texture-coordinates");
+    if (!needsDetail(source)) return material;
+    if (hasUntraced(detail)) report.count("approximated.physical-parameter");
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    return material;
+}
+
+} // namespace osgRayTrace::engine

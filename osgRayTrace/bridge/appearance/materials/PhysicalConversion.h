@@ -1,0 +1,17 @@
+// PhysicalConversion.h - converts a PhysicalMaterial to a Material. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+
+#include <osgRayTrace/PhysicalMaterial>
+
+namespace osgRayTrace::engine
+{
+
+/// Returns the material without what the rest of the state decides on. The overall colour of the
+/// inputs is linear. Textures whose unit has no coordinates are left out and counted.
+Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& inputs,
+                          TextureConverter& textures, ConversionReport& report);
+
+} // namespace osgRayTrace::engine
