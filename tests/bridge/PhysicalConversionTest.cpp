@@ -138,6 +138,8 @@ TEST_CASE("tangents: vertex attribute 6 is read with its signs, also through tra
     CHECK(mirrored.tangents[0] == Vec4(-2, 0, 0, -1));
     CHECK(mirrored.tangents[1] == Vec4(-2, 0, 0, 1));
     CHECK(mirrored.tangents[2] == Vec4(0, 1, 0, -1));
+    request.copies = true; // it will deform, and its tangents will not
+    CHECK(convertGeometry(*geometry, request).mesh->tangents.empty());
     geometry->setVertexAttribArray(6, new osg::Vec3Array(3), osg::Array::BIND_PER_VERTEX);
     CHECK(soleMesh(convertGraph(geometry)).tangents.empty()); // somebody else's attribute
 }

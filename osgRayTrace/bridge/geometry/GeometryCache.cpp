@@ -178,7 +178,6 @@ KeptArrays GeometryCache::keptArrays(Entry& before, GeometrySignature& now)
         if (!isSame(then[i], now[i])) return kept;
     if (isSame(then[kNormals], now[kNormals])) kept.normals = before.mesh->normals;
     if (isSame(then[kColors], now[kColors])) kept.colors = before.mesh->colors;
-    if (isSame(then[kTangents], now[kTangents])) kept.tangents = before.mesh->tangents;
     if (isSame(then[kUvs], now[kUvs]))
     {
         kept.uvs = before.mesh->uvs;

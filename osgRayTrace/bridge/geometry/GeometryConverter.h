@@ -33,7 +33,7 @@ struct KeptArrays
     SharedArray<Vec2> uvs;
     SharedArray<Vec2> uvs1;
     SharedArray<float> rs, rs1;
-    SharedArray<Vec4> colors, tangents;
+    SharedArray<Vec4> colors;
 };
 
 /// Converts a geometry to a mesh. Every triangle of the mesh is sound: its indices are in range,
