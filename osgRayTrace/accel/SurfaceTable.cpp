@@ -18,7 +18,7 @@ MeshArrays arraysOf(const Mesh& mesh)
 {
     return {dataOf(mesh.triangles), dataOf(mesh.positions), dataOf(mesh.normals),
             dataOf(mesh.uvs),       dataOf(mesh.uvs1),      dataOf(mesh.rs),
-            dataOf(mesh.rs1),       dataOf(mesh.colors)};
+            dataOf(mesh.rs1),       dataOf(mesh.colors),    dataOf(mesh.tangents)};
 }
 
 } // namespace

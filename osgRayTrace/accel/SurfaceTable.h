@@ -21,6 +21,7 @@ struct MeshArrays
     const float* rs = nullptr;
     const float* rs1 = nullptr;
     const Vec4* colors = nullptr;
+    const Vec4* tangents = nullptr;
 };
 
 /// The mesh of an instance with the transform, the material and the light of the instance.

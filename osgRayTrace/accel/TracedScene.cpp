@@ -41,6 +41,7 @@ struct MaterialPart
         part.materials = scene.materials;
         part.textures = scene.textures;
         part.displayReferred = scene.displayReferred;
+        part.unit = scene.unit;
         return part;
     }
 
@@ -284,6 +285,7 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
     const Stamp stamp = old ? old->scene->changed : 0;
     sameMaterials = old && scene->changed > stamp && scene->textures == old->scene->textures &&
                     scene->displayReferred == old->scene->displayReferred &&
+                    scene->unit == old->scene->unit &&
                     sameParts(scene->materials, old->scene->materials, stamp);
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp);

@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/ChunkTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -30,13 +31,15 @@ const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
 {
     const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
     const bool front = (surface.front >> i) & 1u;
-    if (record.constant) return front ? &record.front : &record.back;
+    if (record.constant && !record.pane) return front ? &record.front : &record.back;
     const SurfaceRecord& where = _inputs.traced.surfaces()[surface.instance[i]];
     const RayBlock& ray = _rays.ray;
     const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
     _textured[i] = _inputs.traced.materials().bsdf(
         surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i],
                                              _rays.v[i], front, direction));
+    // passPanes has taken this lobe.
+    if (_textured[i].thin && _textured[i].isSmooth()) _textured[i].transmission = Vec3(0.0f);
     return &_textured[i];
 }
 
@@ -58,6 +61,18 @@ void ChunkTracer::leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) cons
         block.power.x[i] *= falloff;
         block.power.y[i] *= falloff;
         block.power.z[i] *= falloff;
+    }
+}
+
+/// Lets the bodies whose inner sides photons have met absorb.
+void ChunkTracer::absorb(PhotonPathBlock& block, const SurfaceLanes& surface) const
+{
+    for (const int i : lanesIn(surface.hits & ~surface.front))
+    {
+        const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+        if (!record.absorbs) continue;
+        setLane(block.power, i,
+                laneOf(block.power, i) * transmittanceOver(record, _rays.ray.tFar[i]));
     }
 }
 
@@ -196,6 +211,36 @@ LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surf
     return passed;
 }
 
+/// Lets photons pass panes straight, as passPanes does for rays from the eye, of which they are no
+/// bounce: light samples take the same way. Returns the lanes that go on.
+LaneMask ChunkTracer::passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                                int bounce)
+{
+    const MaterialTable& materials = _inputs.traced.materials();
+    LaneMask passed = 0;
+    for (const int i : lanesIn(lanes & surface.hits))
+    {
+        const uint32_t material = surface.material[i];
+        if (!materials[material].pane) continue;
+        const Vec3 direction = laneOf(block.direction, i);
+        const float cosine = std::fabs(glm::dot(laneOf(surface.shadingNormal, i), direction));
+        const bool front = (surface.front >> i) & 1u;
+        const MaterialPoint point =
+            materialPointOf(_inputs.traced.surfaces()[surface.instance[i]], materials[material],
+                            _rays.primitive[i], _rays.u[i], _rays.v[i], front, direction);
+        const Vec3 share = materials.pane(material, point, cosine);
+        const float p = std::min(std::max(share.x, std::max(share.y, share.z)), 1.0f);
+        if (!(p > 0.0f)) continue;
+        const uint32_t face = hash(surface.instance[i] + 0x70616e65u, _rays.primitive[i]);
+        const uint32_t key = hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face);
+        const bool goesOn = p > 1.0f - 1e-6f || unitFloat(key) < p;
+        const Vec3 weight = goesOn ? share / p : Vec3(1.0f / (1.0f - p));
+        setLane(block.power, i, laneOf(block.power, i) * weight);
+        passed |= static_cast<LaneMask>(goesOn) << i;
+    }
+    return passed;
+}
+
 /// Finds the surfaces that the photons of a block meet and do not pass.
 void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce,
                                SurfaceLanes& surface)
@@ -207,8 +252,12 @@ void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int boun
         _inputs.traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
         _chunk.rays += static_cast<uint64_t>(countLanes(active));
         surfacesOf(_inputs.traced.surfaces(), _rays, active, surface);
-        if (!_inputs.culls && !(bounce == 0 && _inputs.shadowless)) return;
-        lanes = passFaces(block, surface, lanes, bounce);
+        const SceneTraits& traits = _inputs.traced.traits();
+        if (traits.normalMaps) applyNormalMaps(_inputs.traced, _rays, surface);
+        const bool facesPass = _inputs.culls || (bounce == 0 && _inputs.shadowless);
+        if (!facesPass && !traits.panes) return;
+        const LaneMask passed = facesPass ? passFaces(block, surface, lanes, bounce) : 0;
+        lanes = passed | (traits.panes ? passPanes(block, surface, lanes & ~passed, bounce) : 0);
         if (!lanes) break;
         for (const int i : lanesIn(lanes))
             _rays.ray.tNear[i] = std::nextafter(_rays.ray.tFar[i], kInfinity);

@@ -77,6 +77,9 @@ private:
     void findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
     LaneMask passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                        int bounce);
+    LaneMask passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
+                       int bounce);
+    void absorb(PhotonPathBlock& block, const SurfaceLanes& surface) const;
     void leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const;
     LaneMask classify(const SurfaceLanes& surface);
     void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,

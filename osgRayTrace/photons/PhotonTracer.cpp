@@ -47,6 +47,7 @@ void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
 {
     SurfaceLanes surface;
     findSurfaces(block, active, bounce, surface);
+    if (_inputs.traced.traits().attenuation) absorb(block, surface);
     if (bounce == 0) leaveLight(block, surface);
     const LaneMask stores = classify(surface) & ~(_oneSided & ~_seen);
     if (bounce > 0) store(block, surface, stores, bounce);

@@ -3,6 +3,7 @@
 #include "osgRayTrace/shading/Bsdf.h"
 
 #include "osgRayTrace/shading/Fresnel.h"
+#include "osgRayTrace/shading/LayeredBsdf.h"
 
 #include <algorithm>
 #include <cmath>
@@ -180,6 +181,7 @@ std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, flo
                                      Transport transport)
 {
     if (!(wo.z > 0.0f)) return std::nullopt;
+    if (bsdf.layered) return sampleLayered(bsdf, wo, uLobe, u, v, transport);
     const float fresnelO = interfaceFresnel(bsdf, wo.z);
     const LobePmf pmf = lobePmf(bsdf, wo, fresnelO);
     if (pmf.base + pmf.interface <= 0.0f) return std::nullopt;
@@ -229,6 +231,7 @@ BsdfValue evalBsdf(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport)
 {
     BsdfValue value;
     if (!(wo.z > 0.0f) || wi.z == 0.0f) return value;
+    if (bsdf.layered) return evalLayered(bsdf, wo, wi, transport);
     const float fresnelO = interfaceFresnel(bsdf, wo.z);
     const LobePmf pmf = lobePmf(bsdf, wo, fresnelO);
     if (wi.z > 0.0f)
@@ -249,6 +252,7 @@ SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo)
 {
     SpecularLobes lobes;
     if (!(wo.z > 0.0f)) return lobes;
+    if (bsdf.layered) return layeredLobes(bsdf, wo);
     const float fresnelO = interfaceFresnel(bsdf, wo.z);
     if (bsdf.reflects() && bsdf.isSmooth())
         lobes.reflection = reflectionFresnel(bsdf, wo.z, fresnelO);

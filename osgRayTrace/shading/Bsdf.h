@@ -33,6 +33,9 @@ enum class Transport
 /// Refraction is a delta function, too, if microfacets turn it by too little, which takes an index
 /// close to 1. Neither side makes energy, as diffuse + transmission <= 1 - grazing, and coat is 0
 /// or 1 - grazing.
+///
+/// A surface with layers (a clear coat, sheen, a thin wall, or another reflectance than that of the
+/// index) has the terms of LayeredBsdf.h, which says what the last members mean.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};       ///< albedo of the base
@@ -48,10 +51,27 @@ struct Bsdf
     const CoatAlbedoRow* coatRows = nullptr;
     float coatFraction = 0.0f;
 
+    bool layered = false;         ///< true: the surface has some of the members below
+    bool thin = false;            ///< true: a wall that light passes without being bent
+    bool inside = false;          ///< true: wo is within the body; the layers are on the other side
+    Vec3 normalReflectance{0.0f}; ///< of the interface, at normal incidence; layered only
+    float specular = 1.0f;        ///< factor of the reflectance of the interface
+    float clearcoat = 0.0f, clearcoatAlpha = 0.0f;
+    const CoatAlbedoRow* clearcoatRows = nullptr; ///< of a rough clear coat; null: it is smooth
+    float clearcoatFraction = 0.0f;
+    Vec3 sheen{0.0f};
+    float sheenAlpha = 0.0f;
+    float baseAverage = 1.0f; ///< mean over cosine-weighted directions of what reaches the base
+
+    /// Returns the index that radiance and directions change by if light is transmitted.
+    float transmittedEta() const { return thin ? 1.0f : eta; }
+
     bool reflects() const { return coat > 0.0f || grazing > 0.0f || reflectance != Vec3(0.0f); }
     bool transmits() const { return transmission != Vec3(0.0f); }
-    bool isDiffuse() const { return !reflects() && !transmits(); }
+    bool isDiffuse() const { return !reflects() && !transmits() && !layered; }
     bool isSmooth() const { return alpha < kSmoothAlpha; }
+    /// Returns whether light samples and photons find nothing here: mirrors and clear glass.
+    bool isMirror() const { return isSmooth() && diffuse == Vec3(0.0f) && !layered; }
 };
 
 struct BsdfSample

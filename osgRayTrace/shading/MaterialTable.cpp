@@ -3,6 +3,7 @@
 #include "osgRayTrace/shading/MaterialTable.h"
 
 #include "osgRayTrace/shading/Fresnel.h"
+#include "osgRayTrace/shading/LayeredBsdf.h"
 #include "osgRayTrace/shading/TextureSample.h"
 
 #include <algorithm>
@@ -110,6 +111,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         const float ior = usableIor(material.ior);
         const Coat outside = coatOf(material, ior);
         _coats.push_back({outside, glass ? coatOf(material, 1.0f / ior) : outside});
+        if (material.detail && material.detail->clearcoat > 0.0f) prepareClearcoat(material);
     }
     for (uint32_t i = 0; i < scene.materials.size(); ++i)
     {
@@ -119,7 +121,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.fixedFunction = material.model == MaterialModel::FixedFunction;
         record.constant =
             !isTextured(material) && !material.hasBack &&
-            (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None);
+            (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None) &&
+            !(material.detail && material.detail->vertexColors);
         record.sameLobes = material.metallicRoughnessTexture == kInvalid &&
                            material.transmissionTexture == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
@@ -138,6 +141,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
                        (material.hasBack && material.back.emission != Vec3(0.0f));
         record.generated = isGenerated(material.mapping) || isGenerated(material.second.mapping);
         record.partial = isPartial(material);
+        if (material.detail) setDetail(material, record);
         _records.push_back(record);
     }
 }
@@ -148,7 +152,7 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
     Bsdf bsdf = m.model == MaterialModel::Physical ? physical(m, point) : fixedFunction(m, point);
     if (bsdf.coat > 0.0f)
     {
-        const Coat& coat = _coats[material][point.front || !bsdf.transmits() ? 0 : 1];
+        const Coat& coat = _coats[material][point.front || !bsdf.transmits() || bsdf.thin ? 0 : 1];
         bsdf.coatAverage = coat.average;
         if (coat.rough && !bsdf.isSmooth() && bsdf.diffuse != Vec3(0.0f))
         {
@@ -157,6 +161,7 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
             bsdf.coatFraction = place.fraction;
         }
     }
+    if (bsdf.layered && bsdf.diffuse != Vec3(0.0f)) bsdf.baseAverage = baseAverageOf(bsdf);
     return bsdf;
 }
 
@@ -175,30 +180,6 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     else
         coat.rough->prepareAll();
     return coat;
-}
-
-/// Makes a mix of a dielectric and a metal by metallic [glTF20, appendix B.2].
-Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) const
-{
-    const Vec4 base = baseTexture(m, point);
-    const Vec4 metallicRoughness = textureOr(m.metallicRoughnessTexture, point.uv, Vec4(1.0f));
-    const Vec4 clear = textureOr(m.transmissionTexture, point.uv, Vec4(1.0f));
-    const Vec3 color = clampUnit(m.baseColor * Vec3(base));
-    const float metallic = std::clamp(m.metallic * metallicRoughness.z, 0.0f, 1.0f);
-    const float roughness = std::clamp(m.roughness * metallicRoughness.y, 0.0f, 1.0f);
-    const float transmission = std::clamp(m.transmission * clear.x, 0.0f, 1.0f);
-
-    Bsdf bsdf;
-    bsdf.alpha = roughness * roughness;
-    bsdf.diffuse = color * ((1.0f - metallic) * (1.0f - transmission));
-    bsdf.reflectance = color * metallic;
-    bsdf.grazing = metallic;
-    const float ior = usableIor(m.ior);
-    bsdf.coat = ior != 1.0f ? 1.0f - metallic : 0.0f;
-    bsdf.transmission = color * ((1.0f - metallic) * transmission);
-    // Only glass is seen as such from inside; an opaque body shows its outside on both sides.
-    bsdf.eta = point.front || !bsdf.transmits() ? ior : 1.0f / ior;
-    return bsdf;
 }
 
 Bsdf MaterialTable::fixedFunction(const Material& m, const MaterialPoint& point) const
@@ -224,19 +205,11 @@ Vec3 MaterialTable::emission(uint32_t material, const MaterialPoint& point) cons
     const MaterialRecord& record = _records[material];
     if (!record.emits) return Vec3(0.0f);
     const Material& m = *record.material;
-    if (!record.fixedFunction)
-        return m.emission * Vec3(textureOr(m.emissionTexture, point.uv, Vec4(1.0f)));
+    if (!record.fixedFunction) return m.emission * Vec3(textureOr(m, kEmissionRole, point));
     const FaceColors colors =
         fixedFunctionColors(m, point.vertexColor, isFrontFace(m, point.front));
     const Vec3 own = m.lit ? colors.emission : colors.diffuse;
     return Vec3(applyTextures(textures(m, point), Vec4(own, 1.0f)));
-}
-
-Vec4 MaterialTable::baseTexture(const Material& material, const MaterialPoint& point) const
-{
-    if (material.baseColorTexture == kInvalid) return Vec4(1.0f);
-    return sampleTexture(*_scene->textures[material.baseColorTexture],
-                         textureCoordinates(material.mapping, point));
 }
 
 TextureTerms MaterialTable::textures(const Material& m, const MaterialPoint& point) const
@@ -283,13 +256,9 @@ bool MaterialTable::isPartial(const Material& m) const
     const auto isOpaque = [this](uint32_t texture)
     { return texture == kInvalid || _scene->textures[texture]->opaque; };
     const bool constant = isOpaque(m.baseColorTexture) && isOpaque(m.second.texture) &&
-                          m.vertexColorUse == VertexColorUse::None && !m.hasBack;
+                          m.vertexColorUse == VertexColorUse::None && !m.hasBack &&
+                          !(m.detail && m.detail->vertexColors);
     return !constant || !(m.alpha >= 1.0f) || !passes(m.alphaTest, 1.0f, m.alphaReference);
-}
-
-Vec4 MaterialTable::textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const
-{
-    return texture == kInvalid ? otherwise : sampleTexture(*_scene->textures[texture], uv);
 }
 
 FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor, bool front)

@@ -34,8 +34,18 @@ struct MaterialRecord
     bool emits = false; ///< true: emission, or an unlit fixed-function colour
     bool generated =
         false; ///< true: texture coordinates need the point's position, normal and direction
-    bool partial = false; ///< true: some rays pass the surface: see opacity and Material::culling
+    bool partial = false;   ///< true: some rays pass the surface: see opacity and Material::culling
+    bool normalMap = false; ///< true: a texture decides on the shading normals
+    bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
+    bool absorbs = false;   ///< true: the body below the surface absorbs light
+    Vec3 absorption{0.0f};  ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
 };
+
+/// Returns what is left of light after a distance within the body [engine units].
+inline Vec3 transmittanceOver(const MaterialRecord& material, float distance)
+{
+    return glm::exp(-material.absorption * distance);
+}
 
 /// Holds the texture units of a fixed-function material, looked up at a point.
 struct TextureTerms
@@ -73,6 +83,14 @@ public:
     /// the highlight leaves.
     Bsdf bsdf(uint32_t material, const MaterialPoint& point) const;
 
+    /// Returns the share of the light that passes a point of a pane straight, for a direction with
+    /// this cosine to the shading normal. Panes are thin walls with smooth faces.
+    Vec3 pane(uint32_t material, const MaterialPoint& point, float cosTheta) const;
+
+    /// Returns the normal of a normal map at a point: along s, along t and the surface's normal; of
+    /// any length.
+    Vec3 mappedNormal(const Material& material, const MaterialPoint& point) const;
+
     /// Returns the radiance that leaves the surface by itself: emission, or the colour of unlit
     /// fixed-function materials.
     Vec3 emission(uint32_t material, const MaterialPoint& point) const;
@@ -89,9 +107,12 @@ private:
     bool isPartial(const Material& material) const;
     float fixedFunctionAlpha(const Material& material, const MaterialPoint& point) const;
     Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
-    Vec4 textureOr(uint32_t texture, Vec2 uv, Vec4 otherwise) const;
+    Vec4 textureOr(const Material& material, TextureRole role, const MaterialPoint& point) const;
     Bsdf physical(const Material& material, const MaterialPoint& point) const;
+    void addLayers(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     Bsdf fixedFunction(const Material& material, const MaterialPoint& point) const;
+    void prepareClearcoat(const Material& material);
+    void setDetail(const Material& material, MaterialRecord& record) const;
 
     const Scene* _scene;
     std::vector<MaterialRecord> _records;
@@ -103,7 +124,15 @@ private:
     };
     Coat coatOf(const Material& material, float eta) const;
     std::vector<std::array<Coat, 2>> _coats; ///< a material: from outside, from inside
+    std::shared_ptr<CoatAlbedo> _clearcoat;  ///< null unless some clear coat is rough
 };
+
+/// Returns where a texture of a physical material is looked up.
+inline Vec2 placedUv(const TexturePlace& place, const TexturePoint& point)
+{
+    const Vec2 uv = place.set == 0 ? point.uv : point.uv1;
+    return place.offset + place.u * uv.x + place.v * uv.y;
+}
 
 /// Returns the colours of the seen face after the vertex colour has replaced those that
 /// Material::vertexColorUse names.

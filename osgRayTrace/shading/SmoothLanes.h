@@ -11,7 +11,7 @@ namespace osgRayTrace::engine
 /// Returns true if the surface has mirror-like lobes and no other.
 inline bool isSmoothInterface(const Bsdf& bsdf)
 {
-    return bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f);
+    return bsdf.isMirror();
 }
 
 /// Holds the members of Bsdf that sampleBsdf reads of a smooth interface.

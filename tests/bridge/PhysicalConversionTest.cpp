@@ -3,6 +3,7 @@
 #include "tests/bridge/TexturedGraphs.h"
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
+#include "osgRayTrace/bridge/geometry/GeometryConverter.h"
 #include "osgRayTrace/film/ToneMap.h"
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -101,6 +102,10 @@ TEST_CASE("physical material: textures have their place, and are left out withou
     const Material& material = soleMaterial(result);
     REQUIRE(material.detail);
     CHECK(hasNormalMap(material));
+    CHECK(countOf(result, "approximated.coat-normal") == 0);
+    physical->setClearcoat(1.0f);
+    CHECK(countOf(convertGraph(geometry), "approximated.coat-normal") == 1);
+    physical->setClearcoat(0.0f);
     CHECK_FALSE(result.scene->textures.at(material.detail->textures[kNormalRole])->decodeSrgb);
     CHECK(material.detail->textures[kSheenColorRole] == kInvalid);
     CHECK(countOf(result, "approximated.no-texture-coordinates") == 1);
@@ -114,4 +119,27 @@ TEST_CASE("physical material: textures have their place, and are left out withou
     const MaterialDetail& detail = *soleMaterial(both).detail;
     CHECK(detail.places[kSheenColorRole].set == 1);
     CHECK(both.scene->textures.at(detail.textures[kSheenColorRole])->decodeSrgb);
+}
+
+TEST_CASE("tangents: vertex attribute 6 is read with its signs, also through transforms",
+          "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    const osg::ref_ptr<osg::Vec4Array> tangents = new osg::Vec4Array;
+    for (const osg::Vec4& tangent :
+         {osg::Vec4(1, 0, 0, 1), osg::Vec4(1, 0, 0, -1), osg::Vec4(0, 1, 0, 1)})
+        tangents->push_back(tangent);
+    geometry->setVertexAttribArray(6, tangents, osg::Array::BIND_PER_VERTEX);
+    CHECK(soleMesh(convertGraph(geometry)).tangents[1] == Vec4(1, 0, 0, -1));
+    MeshRequest request;
+    request.transform = osg::Matrixd::scale(-2.0, 1.0, 1.0);
+    const Mesh mirrored = *convertGeometry(*geometry, request).mesh;
+    REQUIRE(mirrored.tangents.size() == 3);
+    CHECK(mirrored.tangents[0] == Vec4(-2, 0, 0, -1));
+    CHECK(mirrored.tangents[1] == Vec4(-2, 0, 0, 1));
+    CHECK(mirrored.tangents[2] == Vec4(0, 1, 0, -1));
+    request.copies = true; // it will deform, and its tangents will not
+    CHECK(convertGeometry(*geometry, request).mesh->tangents.empty());
+    geometry->setVertexAttribArray(6, new osg::Vec3Array(3), osg::Array::BIND_PER_VERTEX);
+    CHECK(soleMesh(convertGraph(geometry)).tangents.empty()); // somebody else's attribute
 }

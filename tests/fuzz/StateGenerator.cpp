@@ -108,6 +108,34 @@ osg::ref_ptr<osg::Material> randomMaterial(Dice& dice)
     return material;
 }
 
+/// Sets the parameters that few surfaces have, some of them to strange values.
+template <std::size_t N>
+void addDetails(PhysicalMaterial& material, Dice& dice, const float (&units)[N])
+{
+    material.setAlpha(dice.oneOf(units));
+    material.setVertexColors(dice.oneIn(2));
+    material.setThinWalled(dice.oneIn(2));
+    if (dice.oneIn(2)) material.setAttenuationColor(strangeVector(dice, 1.0, 6));
+    if (dice.oneIn(2)) material.setAttenuationDistance(strangeFloat(dice, 2.0, 3));
+    if (dice.oneIn(2)) material.setSpecular(dice.oneOf(units));
+    if (dice.oneIn(2)) material.setSpecularColor(strangeVector(dice, 10.0, 3));
+    if (dice.oneIn(2)) material.setClearcoat(dice.oneOf(units));
+    material.setClearcoatRoughness(dice.oneOf(units));
+    if (dice.oneIn(2)) material.setSheenColor(strangeVector(dice, 1.0, 6));
+    material.setSheenRoughness(dice.oneOf(units));
+    if (dice.oneIn(2)) material.setNormalScale(strangeFloat(dice, 2.0, 4));
+    for (int i = PhysicalMaterial::NORMAL_TEXTURE; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
+    {
+        const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
+        if (dice.oneIn(4)) material.setTexture(use, randomTexture(dice).get());
+        PhysicalMaterial::TexturePlace place;
+        place.unit = dice.oneIn(2) ? 1 : 0;
+        place.rotation = strangeFloat(dice, 6.0, 6);
+        place.scale.set(strangeFloat(dice, 2.0, 6), strangeFloat(dice, 2.0, 6));
+        if (dice.oneIn(4)) material.setTexturePlace(use, place);
+    }
+}
+
 osg::ref_ptr<PhysicalMaterial> randomPhysical(Dice& dice)
 {
     osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
@@ -124,6 +152,7 @@ osg::ref_ptr<PhysicalMaterial> randomPhysical(Dice& dice)
     if (dice.oneIn(4)) material->setMetallicRoughnessTexture(randomTexture(dice).get());
     if (dice.oneIn(4)) material->setTransmissionTexture(randomTexture(dice).get());
     if (dice.oneIn(4)) material->setEmissionTexture(randomTexture(dice).get());
+    if (dice.oneIn(2)) addDetails(*material, dice, kUnits);
     return material;
 }
 

@@ -136,6 +136,71 @@ std::vector<BsdfKind> allKinds()
     return kinds;
 }
 
+std::vector<BsdfKind> kindsOf(const std::string& name, const Material& material)
+{
+    std::vector<BsdfKind> kinds;
+    add(kinds, name, material);
+    return kinds;
+}
+
+std::vector<BsdfKind> layeredKinds()
+{
+    std::vector<BsdfKind> kinds;
+    const auto with = [&kinds](const std::string& name, Material material, const auto& change)
+    {
+        MaterialDetail detail;
+        change(detail);
+        material.detail = std::make_shared<MaterialDetail>(detail);
+        add(kinds, name, material);
+    };
+    const Material plastic = physical(0.6f, 0.0f, 0.0f, 1.5f);
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+    {
+        const std::string coat = ", coat of roughness " + std::to_string(roughness);
+        const auto coated = [roughness](MaterialDetail& d)
+        {
+            d.clearcoat = 1.0f;
+            d.clearcoatRoughness = roughness;
+        };
+        with("plastic" + coat, plastic, coated);
+        with("mirror" + coat, physical(0.0f, 1.0f, 0.0f, 1.5f), coated);
+        with("metal" + coat, physical(0.4f, 1.0f, 0.0f, 1.5f), coated);
+        with("glass" + coat, physical(0.4f, 0.0f, 1.0f, 1.5f), coated);
+        with("half clear" + coat, physical(0.4f, 0.0f, 0.5f, 1.5f), coated);
+    }
+    for (const float roughness : {0.0f, 0.2f, 0.5f, 1.0f})
+        with("sheen of roughness " + std::to_string(roughness), plastic,
+             [roughness](MaterialDetail& d)
+             {
+                 d.sheenColor = Vec3(1.0f);
+                 d.sheenRoughness = roughness;
+             });
+    for (const float roughness : {0.0f, 0.1f, 0.5f, 1.0f})
+        with("thin wall of roughness " + std::to_string(roughness),
+             physical(roughness, 0.0f, 1.0f, 1.5f), [](MaterialDetail& d) { d.thinWalled = true; });
+    with("half clear thin wall", physical(0.4f, 0.0f, 0.5f, 1.5f),
+         [](MaterialDetail& d) { d.thinWalled = true; });
+    with("specular 0", plastic, [](MaterialDetail& d) { d.specular = 0.0f; });
+    with("specular 0.5, smooth", physical(0.0f, 0.0f, 0.0f, 1.5f),
+         [](MaterialDetail& d) { d.specular = 0.5f; });
+    with("bright specular colour", plastic,
+         [](MaterialDetail& d) { d.specularColor = Vec3(9.0f); });
+    with("dark specular colour", plastic, [](MaterialDetail& d) { d.specularColor = Vec3(0.1f); });
+    with("glass, bright specular colour", physical(0.3f, 0.0f, 1.0f, 1.5f),
+         [](MaterialDetail& d) { d.specularColor = Vec3(4.0f); });
+    with("everything", physical(0.5f, 0.3f, 0.4f, 1.7f),
+         [](MaterialDetail& d)
+         {
+             d.clearcoat = 0.6f;
+             d.clearcoatRoughness = 0.2f;
+             d.sheenColor = Vec3(0.5f);
+             d.sheenRoughness = 0.4f;
+             d.specular = 0.7f;
+             d.specularColor = Vec3(2.0f);
+         });
+    return kinds;
+}
+
 std::vector<Vec3> outgoingDirections()
 {
     std::vector<Vec3> directions{Vec3(0.0f, 0.0f, 1.0f)};

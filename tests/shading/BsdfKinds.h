@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/scene/Material.h"
 #include "osgRayTrace/shading/Bsdf.h"
 
 #include <string>
@@ -34,6 +35,12 @@ std::vector<BsdfKind> smoothKinds();
 
 /// Returns rough and smooth kinds.
 std::vector<BsdfKind> allKinds();
+
+/// Returns white kinds with a clear coat, sheen, thin walls or another reflectance.
+std::vector<BsdfKind> layeredKinds();
+
+/// Returns the kind of a material, and that from inside if it transmits.
+std::vector<BsdfKind> kindsOf(const std::string& name, const Material& material);
 
 /// Returns unit directions above the surface, from normal to grazing.
 std::vector<Vec3> outgoingDirections();

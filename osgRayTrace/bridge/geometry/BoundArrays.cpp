@@ -27,4 +27,12 @@ const osg::Array* positionArray(const osg::Geometry& geometry)
     return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
 }
 
+const osg::Array* tangentArray(const osg::Geometry& geometry)
+{
+    constexpr unsigned int kTangents = 6;
+    return geometry.getNumVertexAttribArrays() > kTangents
+               ? geometry.getVertexAttribArray(kTangents)
+               : nullptr;
+}
+
 } // namespace osgRayTrace::engine

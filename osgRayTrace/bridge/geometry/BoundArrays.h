@@ -15,4 +15,7 @@ osg::Array::Binding bindingOf(const osg::Array* array);
 /// 0. The result may be null.
 const osg::Array* positionArray(const osg::Geometry& geometry);
 
+/// Returns vertex attribute 6, in which tangents stand; null if there is none.
+const osg::Array* tangentArray(const osg::Geometry& geometry);
+
 } // namespace osgRayTrace::engine

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+
 #include <osg/Geometry>
 
 #include <cstdint>
@@ -46,7 +48,8 @@ template <class F> void forEachBuffer(const osg::Geometry& geometry, bool attrib
     f(geometry.getColorArray(), false);
     for (const osg::ref_ptr<osg::Array>& array : geometry.getTexCoordArrayList())
         f(array.get(), false);
-    if (attributes || !geometry.getVertexArray())
+    // Position and tangents are vertex attributes that are read, as are those that rules name.
+    if (attributes || !geometry.getVertexArray() || tangentArray(geometry))
         for (const osg::ref_ptr<osg::Array>& array : geometry.getVertexAttribArrayList())
             f(array.get(), false);
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())

@@ -25,6 +25,7 @@ enum : std::size_t
     kColors,
     kUvs,
     kUvs1,
+    kTangents,
     kPrimitives, ///< the primitive sets begin here
 };
 
@@ -101,7 +102,7 @@ GeometryCache::GeometrySignature GeometryCache::signatureOf(const osg::Geometry&
     // The order is that of the indices above.
     for (const osg::Array* array :
          {positionArray(geometry), geometry.getNormalArray(), geometry.getColorArray(),
-          geometry.getTexCoordArray(0), geometry.getTexCoordArray(1)})
+          geometry.getTexCoordArray(0), geometry.getTexCoordArray(1), tangentArray(geometry)})
         add(array, static_cast<unsigned int>(osg::getBinding(array)));
     for (unsigned int i = 0; i < geometry.getNumPrimitiveSets(); ++i)
     {

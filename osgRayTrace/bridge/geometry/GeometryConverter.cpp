@@ -332,6 +332,8 @@ void readTriangles(TriangleList& list, const osg::Geometry& geometry, const osg:
     mesh.rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
     mesh.rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
     mesh.colors = fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), counts);
+    // Nobody turns the tangents of a geometry that deforms: those of its triangles serve.
+    if (!request.copies) mesh.tangents = reader.tangents(tangentArray(geometry));
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct Vertices
     std::vector<Vec3> positions, normals;
     std::vector<Vec2> uvs, uvs1;
     std::vector<float> rs, rs1;
-    std::vector<Vec4> colors;
+    std::vector<Vec4> colors, tangents;
 };
 
 template <class T> std::vector<T> copyOf(const SharedArray<T>& values)
@@ -120,6 +120,7 @@ private:
         appendBetween(_vertices.rs, a, b, t);
         appendBetween(_vertices.rs1, a, b, t);
         appendBetween(_vertices.colors, a, b, t);
+        appendBetween(_vertices.tangents, a, b, t);
         return next;
     }
 
@@ -134,7 +135,7 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
 {
     Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs),
                       copyOf(mesh.uvs1),      copyOf(mesh.rs),      copyOf(mesh.rs1),
-                      copyOf(mesh.colors)};
+                      copyOf(mesh.colors),    copyOf(mesh.tangents)};
     std::vector<UVec3> triangles = copyOf(mesh.triangles);
     for (const Vec4d& plane : planes)
         triangles = PlaneCut(plane, vertices).keptOf(triangles);
@@ -148,6 +149,7 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
     mesh.rs = std::move(vertices.rs);
     mesh.rs1 = std::move(vertices.rs1);
     mesh.colors = std::move(vertices.colors);
+    mesh.tangents = std::move(vertices.tangents);
     mesh.triangles = std::move(triangles);
 }
 

@@ -162,6 +162,7 @@ void makeFlat(Mesh& mesh)
     spread(mesh.rs);
     spread(mesh.rs1);
     spread(mesh.colors);
+    spread(mesh.tangents);
     spread(mesh.positions);
     std::vector<UVec3> triangles;
     std::vector<Vec3> normals;
@@ -261,6 +262,8 @@ void appendSolids(const std::vector<PointOrLine>& solids, const osg::Geometry& g
                       endOf, 0.0f);
     mesh.colors = joined(mesh.colors, before, reader.colors(geometry.getColorArray(), counts),
                          endOf, Vec4(1.0f));
+    mesh.tangents =
+        joined(mesh.tangents, before, reader.tangents(tangentArray(geometry)), endOf, Vec4(0.0f));
     mesh.positions = joined(mesh.positions, builder.positions);
     mesh.normals = joined(mesh.normals, builder.normals);
     mesh.triangles = joined(mesh.triangles, builder.triangles);

@@ -74,6 +74,13 @@ bool isWithin(const Vec3d& p, double largest)
     return std::fabs(p.x) <= largest && std::fabs(p.y) <= largest && std::fabs(p.z) <= largest;
 }
 
+double determinantOf(const osg::Matrixd& m)
+{
+    return m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) -
+           m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0)) +
+           m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+}
+
 uint64_t countOf(const std::vector<uint8_t>& flags)
 {
     uint64_t count = 0;
@@ -260,6 +267,33 @@ SharedArray<Vec4> VertexReader::colors(const osg::Array* array, ConversionCounts
                    missing[i] = 0;
                });
     if (const uint64_t repaired = countOf(missing)) counts["repaired.color"] += repaired;
+    return values;
+}
+
+SharedArray<Vec4> VertexReader::tangents(const osg::Array* array) const
+{
+    if (!isReadable(array) || array->getDataSize() != 4 ||
+        array->getBinding() != osg::Array::BIND_PER_VERTEX)
+        return {};
+    const std::size_t count = _map.vertexCount;
+    if (!_request.transform)
+    {
+        const Vec4* ready = shareable<Vec4>(*array);
+        if (ready && allWithin(&ready->x, 4 * count, kLargestCoordinate))
+            return share<Vec4>(*array);
+    }
+    const std::optional<osg::Matrixd>& m = _request.transform;
+    // A transform that mirrors turns the side on which the bitangent is.
+    const double sign = m && determinantOf(*m) < 0.0 ? -1.0 : 1.0;
+    std::vector<Vec4> values(count, Vec4(0.0f));
+    forEachRow(*array, rowsOfBinding(*array, IntegerMeaning::Normalized),
+               [&](std::size_t i, const Vec4d& row)
+               {
+                   const osg::Vec3d local(row.x, row.y, row.z);
+                   const osg::Vec3d t = m ? osg::Matrixd::transform3x3(local, *m) : local;
+                   const Vec4 value(Vec4d(t.x(), t.y(), t.z(), sign * row.w));
+                   if (isFinite(Vec3(value)) && std::isfinite(value.w)) values[i] = value;
+               });
     return values;
 }
 

@@ -57,6 +57,10 @@ public:
     /// repaired colours.
     SharedArray<Vec4> colors(const osg::Array* array, ConversionCounts& counts) const;
 
+    /// Returns tangents with the signs of their bitangents; the result is empty unless the array
+    /// has four components a vertex.
+    SharedArray<Vec4> tangents(const osg::Array* array) const;
+
 private:
     template <class T> const T* shareable(const osg::Array& array) const;
     template <class T> SharedArray<T> share(const osg::Array& array) const;

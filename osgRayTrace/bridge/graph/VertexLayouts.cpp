@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/VertexLayouts.h"
 
+#include "osgRayTrace/bridge/geometry/BoundArrays.h"
+
 #include <iterator>
 
 namespace osgRayTrace::engine
@@ -58,6 +60,8 @@ const osg::Geometry& VertexLayouts::laidOut(const osg::Geometry& geometry,
     result.setTexCoordArray(1, const_cast<osg::Array*>(geometry.getTexCoordArray(1)));
     if (!positions) // attribute 0 holds the positions then
         result.setVertexAttribArray(0, const_cast<osg::Array*>(geometry.getVertexAttribArray(0)));
+    if (const osg::Array* tangents = tangentArray(geometry))
+        result.setVertexAttribArray(6, const_cast<osg::Array*>(tangents));
     copyPrimitives(geometry, result);
     return result;
 }

@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/debug/DebugIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -106,6 +107,7 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
                                                   kCameraRays);
         result.counts.cameraRays += kLanes;
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
+        if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, rays, surface);
         depthLanes(context.camera, left, bottom, b, surface, along, depth);
         for (int i = 0; i < kLanes; ++i)
         {

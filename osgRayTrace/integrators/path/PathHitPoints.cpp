@@ -93,7 +93,7 @@ void keepHitPoints(const PathBlock& block, const Bounce& bounce, HitPoints& hits
             const Bsdf& bsdf = bounce.bsdfs[i];
             const bool gathering = (bounce.gathering >> i) & 1u;
             // Mirrors and smooth glass send nothing back from light samples or photons.
-            if (bsdf.isSmooth() && bsdf.diffuse == Vec3(0.0f) && !gathering) continue;
+            if (bsdf.isMirror() && !gathering) continue;
             kept = static_cast<uint32_t>(hits.bsdfs.size());
             hits.bsdfs.push_back(bsdf);
         }

@@ -20,10 +20,12 @@
 #include "osgRayTrace/integrators/path/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <cstring>
@@ -56,6 +58,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                 ? (front ? record.front : record.back)
                 : materials.bsdf(bounce.surface.material[i],
                                  materialPoint(tile.context, block.rays, bounce.surface, i));
+        if (record.pane) dropStraightLobe(bounce.bsdfs[i]);
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
@@ -63,6 +66,25 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
     }
     dropTerminatorOffset(bounce.surface,
                          bounce.transmissive); // refraction needs the facet's own place
+}
+
+/// Returns whether materials decide on where rays go on, on shading normals or on light on its way.
+bool needsMaterialsAtHits(const SceneTraits& traits)
+{
+    return traits.normalMaps || traits.panes || traits.attenuation;
+}
+
+/// Applies what materials do to the surfaces that rays have met, before they are shaded.
+void meetMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
+{
+    const TracedScene& traced = *tile.context.traced;
+    if (traced.traits().normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
+    const HitRule rule = number == 0 ? kCameraRays : HitRule();
+    if (traced.traits().panes)
+        passPanes(tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
+                  tile.counts);
+    if (traced.traits().attenuation)
+        attenuate(tile.context, block.rays, bounce.surface, block.throughput);
 }
 
 /// Traces the paths of a block over one bounce.
@@ -82,6 +104,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     bounce.bsdfs = tile.bsdfs;
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
                rayStart(tile.context.options));
+    if (needsMaterialsAtHits(traced.traits())) meetMaterials(tile, block, bounce, number);
     addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
     addEmission(tile, block, bounce.surface, use);
     if (number == 0)

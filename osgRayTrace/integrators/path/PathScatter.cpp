@@ -79,7 +79,11 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
         setLane(next.origin, i, begin.origin);
         next.tNear[i] = begin.tNear;
         next.pdfW[i] = kInfinity;
-        if (transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
+        if (transmitted)
+        {
+            const float eta = bounce.bsdfs[i].transmittedEta();
+            block.etaScale[i] *= eta * eta;
+        }
         alive |= 1u << i;
     }
     return alive;
@@ -204,7 +208,11 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         next.tNear[i] = begin.tNear;
         setLane(next.weight, i, sample->weight);
         next.pdfW[i] = sample->delta ? kInfinity : sample->pdfW;
-        if (sample->transmitted) block.etaScale[i] *= bounce.bsdfs[i].eta * bounce.bsdfs[i].eta;
+        if (sample->transmitted)
+        {
+            const float eta = bounce.bsdfs[i].transmittedEta();
+            block.etaScale[i] *= eta * eta;
+        }
         alive |= 1u << i;
     }
 

@@ -41,6 +41,9 @@ void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLane
                   std::vector<FoundPhoton>& found)
 {
     const BsdfLanes bsdfs = bsdfLanes(points.bsdfs, points.queries.lanes);
+    LaneMask layered = 0; // lanes that BsdfLanes does not evaluate
+    for (const int i : lanesIn(points.queries.lanes))
+        layered |= static_cast<LaneMask>(points.bsdfs[i].layered) << i;
     found.clear();
     map.find(points.queries, found);
     Vec3Lanes wi, fCos;
@@ -54,7 +57,7 @@ void addReflected(const PhotonMap& map, const GatherLanes& points, PhotonSumLane
         if (!lanes) continue;
         for (int i = 0; i < kLanes; ++i)
             setLane(wi, i, photon.wi);
-        if (countLanes(lanes) < kLeastBsdfLanes)
+        if (countLanes(lanes) < kLeastBsdfLanes || (lanes & layered))
             for (const int i : lanesIn(lanes))
                 setLane(fCos, i, evalAlone(points, i, photon.wi));
         else

@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/shared/FirstHit.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 
@@ -125,6 +126,8 @@ void traceCentres(const PassContext& context, int left, int bottom, int block, H
     centreRayLanes(context.camera, left, bottom, block, hits.rays);
     context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, rule);
     surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
+    if (context.traced->traits().normalMaps)
+        applyNormalMaps(*context.traced, hits.rays, hits.surface);
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
 }
 

@@ -21,7 +21,7 @@ void evalTowardsLight(const RayBlock& rays, const SurfaceLanes& surface, const V
         const Vec3 towards = laneOf(wi, i);
         const bool above = glm::dot(towards, laneOf(normal, i)) > 0.0f;
         if (above != isAbove(surface, i, towards)) continue;
-        (bsdfs[i].transmits() ? alone : reflecting) |= 1u << i;
+        (bsdfs[i].transmits() || bsdfs[i].layered ? alone : reflecting) |= 1u << i;
     }
     fCos = {};
     pdfW = {};

@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
@@ -160,7 +161,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const LightRece
     const bool soft = isSoft(light);
     const SurfaceLanes& surface = receivers.surface;
     const LaneMask transmissive = receivers.throughSurface | surface.terminatorLanes;
-    samples.lit = 0;
+    samples.lit = samples.tinted = 0;
     for (const int i : lanesIn(receivers.active))
     {
         const Material& material = context.traced->scene().materials[surface.material[i]];
@@ -201,9 +202,24 @@ static LaneMask unoccluded(const RayBlock& shadow)
     return visible;
 }
 
+/// Returns the lanes that see the light, straight or through panes.
+static LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples,
+                                    TileCounts& counts)
+{
+    const RayBlock shadow = samples.shadow;
+    samples.tinted = 0;
+    context.traced->intersector().occlusion(samples.shadow, samples.lit);
+    counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
+    const LaneMask straight = unoccluded(samples.shadow) & samples.lit;
+    const LaneMask blocked = samples.lit & ~straight;
+    if (!blocked) return straight;
+    return straight | throughPanes(context, shadow, blocked, samples, counts);
+}
+
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts)
 {
     if (!context.options.shadows || !samples.lit) return samples.lit;
+    if (context.traced->traits().panes) return visibleThroughPanes(context, samples, counts);
     context.traced->intersector().occlusion(samples.shadow, samples.lit);
     counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     return unoccluded(samples.shadow) & samples.lit;

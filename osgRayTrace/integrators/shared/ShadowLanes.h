@@ -16,6 +16,8 @@ struct LightLanes
     FloatLanes weight; ///< factor of f cos: 1 / (pmf of the light's choice * pdfW); 1 for delta
                        ///< lights without a size
     FloatLanes attenuation; ///< attenuation of delta lights, already in radiance
+    Vec3Lanes tint;         ///< share that panes let through, already in radiance; see tinted
+    LaneMask tinted = 0;    ///< lanes whose light has come through panes
     LaneMask lit = 0;       ///< lanes that can get light; other lanes are undefined
     RayBlock shadow; ///< ray from the surface to the light, both ends clear of their own geometry
 };

@@ -14,9 +14,11 @@
 #include "osgRayTrace/integrators/whitted/WhittedIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/integrators/whitted/WhittedTile.h"
 
 #include <cmath>
@@ -149,7 +151,7 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
             push(tile, block, i, mirrored, weight * lobes.reflection, etaScale);
         if (lobes.refraction == Vec3(0.0f)) continue;
         const Vec3 refracted = frame.toWorld(lobes.refracted);
-        const float eta = m.bsdfs[i].eta;
+        const float eta = m.bsdfs[i].transmittedEta();
         if (glm::dot(refracted, geometric) < 0.0f)
             push(tile, block, i, refracted, weight * lobes.refraction, etaScale * eta * eta);
     }
@@ -224,9 +226,13 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
+        const SceneTraits& traits = tile.context.traced->traits();
+        if (traits.normalMaps) applyNormalMaps(*tile.context.traced, block->rays, block->surface);
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
-        block->passed = tile.context.traced->traits().blended ? passThrough(tile, *block) : 0;
+        block->passed = traits.blended ? passThrough(tile, *block) : 0;
+        if (traits.attenuation)
+            block->passed |= attenuate(tile.context, block->rays, block->surface, block->weight);
     }
     addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)

@@ -158,8 +158,17 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
     for (const int i : lanesIn(reached & m.fixedFunction))
     {
-        addLight(m.points[i], light, laneOf(samples.wi, i), samples.attenuation[i] * share,
-                 (visible >> i) & 1u ? samples.weight[i] : 0.0f);
+        const float attenuation = samples.attenuation[i] * share;
+        const float weight = (visible >> i) & 1u ? samples.weight[i] : 0.0f;
+        if (!((samples.tinted >> i) & 1u))
+        {
+            addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, weight);
+            continue;
+        }
+        Light tinted = light; // OpenGL's colours, as they come through panes
+        tinted.diffuse *= laneOf(samples.tint, i);
+        tinted.specular *= laneOf(samples.tint, i);
+        addLight(m.points[i], tinted, laneOf(samples.wi, i), attenuation, weight);
     }
     if (visible & m.diffuse)
         addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, share, block.radiance);

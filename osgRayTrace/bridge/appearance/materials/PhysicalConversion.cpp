@@ -58,14 +58,6 @@ bool needsDetail(const PhysicalMaterial& source)
            source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3();
 }
 
-/// Returns whether the material has a parameter that the engine does not model yet.
-bool hasUntraced(const MaterialDetail& detail)
-{
-    return detail.textures[kNormalRole] != kInvalid || detail.vertexColors || detail.thinWalled ||
-           detail.absorbs() || detail.specular != 1.0f || detail.specularColor != Vec3(1.0f) ||
-           detail.clearcoat > 0.0f || detail.sheenColor != Vec3(0.0f);
-}
-
 MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inputs)
 {
     MaterialDetail detail;
@@ -127,7 +119,8 @@ Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& i
         detail.textures[role] = convert(role);
     if (lacksCoordinates) report.count("approximated.no-texture-coordinates");
     if (!needsDetail(source)) return material;
-    if (hasUntraced(detail)) report.count("approximated.physical-parameter");
+    if (detail.clearcoat > 0.0f && detail.textures[kNormalRole] != kInvalid)
+        report.count("approximated.coat-normal");
     material.detail = std::make_shared<MaterialDetail>(detail);
     return material;
 }

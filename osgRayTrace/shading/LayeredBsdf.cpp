@@ -1,0 +1,397 @@
+// LayeredBsdf.cpp - samples and evaluates surfaces with layers. Layer: shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/LayeredBsdf.h"
+
+#include "osgRayTrace/shading/Fresnel.h"
+#include "osgRayTrace/shading/Sheen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr float kClearcoatIndex = 1.5f;
+
+float largestOf(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+bool hasSheen(const Bsdf& b)
+{
+    return b.sheen != Vec3(0.0f) && !b.inside;
+}
+
+bool hasClearcoat(const Bsdf& b)
+{
+    return b.clearcoat > 0.0f && !b.inside;
+}
+
+bool isClearcoatSmooth(const Bsdf& b)
+{
+    return b.clearcoatAlpha < kSmoothAlpha;
+}
+
+/// Returns what the sheen leaves to the layers below it: Ss.
+float belowSheen(const Bsdf& b, float cosTheta)
+{
+    if (b.sheen == Vec3(0.0f)) return 1.0f;
+    return std::max(0.0f, 1.0f - largestOf(b.sheen) * sheenAlbedo(b.sheenAlpha, cosTheta));
+}
+
+float clearcoatAlbedo(const Bsdf& b, float cosTheta)
+{
+    if (!b.clearcoatRows) return fresnelDielectric(cosTheta, kClearcoatIndex);
+    const float first = b.clearcoatRows[0](cosTheta), second = b.clearcoatRows[1](cosTheta);
+    return first + (second - first) * b.clearcoatFraction;
+}
+
+/// Returns what sheen and clear coat leave: S, for a direction outside of the body.
+float belowLayers(const Bsdf& b, float cosTheta)
+{
+    const float below = belowSheen(b, cosTheta);
+    return b.clearcoat > 0.0f ? below * (1.0f - b.clearcoat * clearcoatAlbedo(b, cosTheta)) : below;
+}
+
+/// Returns F' of one face whose reflectance is F.
+Vec3 tinted(const Bsdf& b, float fresnel)
+{
+    const float root = (b.eta - 1.0f) / (b.eta + 1.0f), normal = root * root;
+    const float share = (fresnel - normal) / (1.0f - normal);
+    const Vec3 raised = b.normalReflectance + (Vec3(1.0f) - b.normalReflectance) * share;
+    return b.specular * glm::clamp(raised, 0.0f, 1.0f);
+}
+
+/// Returns the reflectance of the wall with faces of a reflectance; of one face for solid bodies.
+Vec3 ofWall(const Bsdf& b, Vec3 face)
+{
+    return b.thin ? 2.0f * face / (Vec3(1.0f) + face) : face;
+}
+
+/// Returns the reflectance of the dielectric interface for one cosine: F'.
+Vec3 interfaceFresnel(const Bsdf& b, float cosTheta)
+{
+    if (b.coat == 0.0f) return Vec3(0.0f);
+    return ofWall(b, tinted(b, fresnelDielectric(cosTheta, b.eta)));
+}
+
+Vec3 reflectionFresnel(const Bsdf& b, float cosTheta)
+{
+    return fresnelSchlick(cosTheta, b.reflectance, b.grazing) +
+           b.coat * interfaceFresnel(b, cosTheta);
+}
+
+/// Returns what the interface leaves to the base: 1 - E'. F' is affine in F, so a rough interface
+/// reflects F' of its albedo or, if R is less than F0, at most specular times its albedo.
+float belowInterface(const Bsdf& b, float cosTheta)
+{
+    if (b.coat == 0.0f) return 1.0f;
+    if (!b.coatRows) return 1.0f - largestOf(interfaceFresnel(b, cosTheta));
+    const float first = b.coatRows[0](cosTheta), second = b.coatRows[1](cosTheta);
+    const float albedo = first + (second - first) * b.coatFraction;
+    return 1.0f - largestOf(ofWall(b, glm::max(tinted(b, albedo), Vec3(b.specular * albedo))));
+}
+
+/// Returns what reaches the base from a direction on the side of wo: A.
+float aboveBase(const Bsdf& b, float cosTheta)
+{
+    return belowInterface(b, cosTheta) * (b.inside ? 1.0f : belowLayers(b, cosTheta));
+}
+
+/// Returns whether light passes the interface by a delta lobe; as for surfaces without layers.
+bool transmitsSmoothly(const Bsdf& b, Vec3 wo)
+{
+    constexpr float kSmoothBend = 3e-5f;
+    if (b.isSmooth()) return true;
+    return !b.thin && std::fabs(b.eta - 1.0f) * b.alpha < kSmoothBend * wo.z * wo.z;
+}
+
+/// Returns the factor of what passes between wo and a direction on the other side.
+float passedLayers(const Bsdf& b, float cosO, float cosI)
+{
+    if (b.thin) return std::min(belowLayers(b, cosO), belowLayers(b, cosI));
+    return belowLayers(b, b.inside ? cosI : cosO);
+}
+
+float reflectedLayers(const Bsdf& b, float cosO, float cosI)
+{
+    return b.inside ? 1.0f : std::min(belowLayers(b, cosO), belowLayers(b, cosI));
+}
+
+float refractionScale(const Bsdf& b, Transport transport)
+{
+    const float eta = b.transmittedEta();
+    return transport == Transport::Radiance ? 1.0f / (eta * eta) : 1.0f;
+}
+
+/// Holds the probabilities of the lobes for wo: they sum to 1, or are all 0.
+struct LobePmf
+{
+    float sheen = 0.0f, clearcoat = 0.0f, base = 0.0f;
+    float interface = 0.0f; ///< reflection and transmission
+    bool any = false;
+};
+
+LobePmf lobePmf(const Bsdf& b, Vec3 wo)
+{
+    LobePmf pmf;
+    if (hasSheen(b)) pmf.sheen = luminance(b.sheen) * sheenAlbedo(b.sheenAlpha, wo.z);
+    if (hasClearcoat(b))
+        pmf.clearcoat = b.clearcoat * clearcoatAlbedo(b, wo.z) * belowSheen(b, wo.z);
+    const float below = b.inside ? 1.0f : belowLayers(b, wo.z);
+    const Vec3 fresnel = interfaceFresnel(b, wo.z);
+    pmf.base = luminance(b.diffuse) * belowInterface(b, wo.z) * below;
+    pmf.interface = (luminance(reflectionFresnel(b, wo.z)) +
+                     luminance(b.transmission * (Vec3(1.0f) - fresnel))) *
+                    below;
+    const float sum = pmf.sheen + pmf.clearcoat + pmf.base + pmf.interface;
+    if (!(sum > 0.0f)) return {};
+    pmf.sheen /= sum;
+    pmf.clearcoat /= sum;
+    pmf.base /= sum;
+    pmf.interface /= sum;
+    pmf.any = true;
+    return pmf;
+}
+
+/// Returns the share of the interface that is reflected at a facet that wo meets under a cosine.
+float reflectedShare(const Bsdf& b, float cosH)
+{
+    if (!b.transmits()) return 1.0f;
+    const float reflected = luminance(reflectionFresnel(b, cosH));
+    const float passed = luminance(b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosH)));
+    return passed > 0.0f ? reflected / (reflected + passed) : 1.0f;
+}
+
+/// Holds D and the density of a reflection at microfacets.
+struct Facet
+{
+    float cosH = 0.0f;
+    float value = 0.0f; ///< D G2 / (4 wo.z)
+    float pdfW = 0.0f;
+};
+
+Facet facetOf(Vec3 wo, Vec3 wi, float alpha)
+{
+    Facet facet;
+    const Vec3 sum = wo + wi;
+    const float length2 = glm::dot(sum, sum);
+    if (length2 < 1e-14f) return facet;
+    const float length = std::sqrt(length2);
+    facet.cosH = 0.5f * length;
+    const float d = evalGgx(sum / length, alpha) / (4.0f * wo.z);
+    facet.value = d * ggxG2(wo, wi, alpha);
+    facet.pdfW = d * ggxG1(wo, alpha);
+    return facet;
+}
+
+void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
+{
+    const float uniform = squareToCosineHemispherePdf(wi.z);
+    if (b.diffuse != Vec3(0.0f))
+        value.fCos +=
+            b.diffuse * (kInvPi * wi.z * aboveBase(b, wi.z) * aboveBase(b, wo.z) / b.baseAverage);
+    value.pdfW += (pmf.base + pmf.sheen) * uniform;
+    if (hasSheen(b)) value.fCos += b.sheen * (evalSheen(b.sheenAlpha, wo, wi) * wi.z);
+    if (hasClearcoat(b) && !isClearcoatSmooth(b))
+    {
+        const Facet facet = facetOf(wo, wi, b.clearcoatAlpha);
+        const float below = std::min(belowSheen(b, wo.z), belowSheen(b, wi.z));
+        value.fCos += Vec3(b.clearcoat * fresnelDielectric(facet.cosH, kClearcoatIndex) *
+                           facet.value * below);
+        value.pdfW += pmf.clearcoat * facet.pdfW;
+    }
+    if (b.reflects() && !b.isSmooth())
+    {
+        const Facet facet = facetOf(wo, wi, b.alpha);
+        const float share = reflectedShare(b, transmitsSmoothly(b, wo) ? wo.z : facet.cosH);
+        value.fCos +=
+            reflectionFresnel(b, facet.cosH) * (facet.value * reflectedLayers(b, wo.z, wi.z));
+        value.pdfW += pmf.interface * share * facet.pdfW;
+    }
+}
+
+/// Adds light that passes the facets of a rough thin wall: their reflection, on the other side.
+void addThrough(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
+{
+    const Facet facet = facetOf(wo, Vec3(wi.x, wi.y, -wi.z), b.alpha);
+    const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, facet.cosH));
+    value.fCos += passed * (facet.value * passedLayers(b, wo.z, -wi.z));
+    value.pdfW += pmf.interface * (1.0f - reflectedShare(b, facet.cosH)) * facet.pdfW;
+}
+
+/// Adds refraction, as for surfaces without layers [Walter07, eq. 21]: see Bsdf.cpp.
+void addRefraction(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transport transport,
+                   BsdfValue& value)
+{
+    Vec3 h = -((wo + wi) + wi * (b.eta - 1.0f));
+    const float length2 = glm::dot(h, h);
+    if (length2 < 1e-14f) return;
+    h /= std::sqrt(length2);
+    if (h.z < 0.0f) h = -h;
+    const float cosO = glm::dot(wo, h), cosI = glm::dot(wi, h);
+    if (cosO <= 0.0f || cosI >= 0.0f) return;
+    const float d = evalGgx(h, b.alpha) * cosO / wo.z;
+    const float jacobian = b.eta * b.eta * -cosI / length2;
+    const float g1 = ggxG1(wo, b.alpha);
+    const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosO));
+    value.fCos += passed * (d * g1 * ggxG1(-wi, b.alpha) * jacobian *
+                            refractionScale(b, transport) * passedLayers(b, wo.z, -wi.z));
+    value.pdfW += pmf.interface * (1.0f - reflectedShare(b, cosO)) * g1 * d * jacobian;
+}
+
+Vec3 passedShare(const Bsdf& b, Vec3 wo, Vec3 wi, Transport transport)
+{
+    return b.transmission * (Vec3(1.0f) - interfaceFresnel(b, wo.z)) *
+           (refractionScale(b, transport) * passedLayers(b, wo.z, -wi.z));
+}
+
+Vec3 mirroredShare(const Bsdf& b, Vec3 wo)
+{
+    return reflectionFresnel(b, wo.z) * reflectedLayers(b, wo.z, wo.z);
+}
+
+Vec3 clearcoatShare(const Bsdf& b, Vec3 wo)
+{
+    return Vec3(b.clearcoat * fresnelDielectric(wo.z, kClearcoatIndex) * belowSheen(b, wo.z));
+}
+
+std::optional<BsdfSample> deltaSample(Vec3 wi, Vec3 share, float pmf)
+{
+    BsdfSample sample;
+    sample.wi = wi;
+    sample.pdfW = pmf;
+    sample.weight = share / pmf;
+    sample.delta = true;
+    sample.transmitted = wi.z < 0.0f;
+    if (!(pmf > 0.0f) || wi.z == 0.0f) return std::nullopt;
+    return sample;
+}
+
+/// Returns a direction from the interface, nothing if there is none. The result is complete if it
+/// is a delta lobe; otherwise its density and weight are not set.
+std::optional<BsdfSample> sampleInterface(const Bsdf& b, Vec3 wo, float uShare, float pmf, float u,
+                                          float v, Transport transport)
+{
+    const bool smooth = transmitsSmoothly(b, wo);
+    const Vec3 h = b.isSmooth() ? Vec3(0.0f, 0.0f, 1.0f) : sampleGgxVisible(wo, b.alpha, u, v);
+    const float cosH = glm::dot(wo, h);
+    const float share = reflectedShare(b, smooth ? wo.z : cosH);
+    const bool reflect = share >= 1.0f || uShare < share;
+    if (reflect && b.isSmooth())
+        return deltaSample(Vec3(-wo.x, -wo.y, wo.z), mirroredShare(b, wo), pmf * share);
+    BsdfSample sample;
+    if (reflect || (b.thin && !smooth))
+    {
+        sample.wi = h * (2.0f * cosH) - wo;
+        if (!(sample.wi.z > 0.0f)) return std::nullopt;
+        if (reflect) return sample;
+        sample.wi.z = -sample.wi.z;
+    }
+    else
+    {
+        const std::optional<Vec3> wi = smooth
+                                           ? refract(wo, Vec3(0.0f, 0.0f, 1.0f), b.transmittedEta())
+                                           : refract(wo, h, b.eta);
+        if (!wi || !(wi->z < 0.0f)) return std::nullopt;
+        if (smooth)
+            return deltaSample(*wi, passedShare(b, wo, *wi, transport), pmf * (1.0f - share));
+        sample.wi = *wi;
+    }
+    sample.transmitted = true;
+    return sample;
+}
+
+} // namespace
+
+std::optional<BsdfSample> sampleLayered(const Bsdf& b, Vec3 wo, float uLobe, float u, float v,
+                                        Transport transport)
+{
+    const LobePmf pmf = lobePmf(b, wo);
+    if (!pmf.any) return std::nullopt;
+    BsdfSample sample;
+    const float cosine = pmf.sheen + pmf.base, coated = cosine + pmf.clearcoat;
+    if (uLobe < cosine)
+    {
+        sample.wi = squareToCosineHemisphere(u, v);
+        if (!(sample.wi.z > 0.0f)) return std::nullopt;
+    }
+    else if (uLobe < coated)
+    {
+        if (isClearcoatSmooth(b))
+            return deltaSample(Vec3(-wo.x, -wo.y, wo.z), clearcoatShare(b, wo), pmf.clearcoat);
+        const Vec3 h = sampleGgxVisible(wo, b.clearcoatAlpha, u, v);
+        sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
+        if (!(sample.wi.z > 0.0f)) return std::nullopt;
+    }
+    else
+    {
+        if (!(pmf.interface > 0.0f)) return std::nullopt;
+        const float uShare = std::min((uLobe - coated) / pmf.interface, 1.0f - 0x1p-24f);
+        const std::optional<BsdfSample> found =
+            sampleInterface(b, wo, uShare, pmf.interface, u, v, transport);
+        if (!found || found->delta) return found;
+        sample = *found;
+    }
+    const BsdfValue value = evalLayered(b, wo, sample.wi, transport);
+    if (!(value.pdfW > 0.0f)) return std::nullopt;
+    sample.pdfW = value.pdfW;
+    sample.weight = value.fCos / value.pdfW;
+    return sample;
+}
+
+BsdfValue evalLayered(const Bsdf& b, Vec3 wo, Vec3 wi, Transport transport)
+{
+    BsdfValue value;
+    const LobePmf pmf = lobePmf(b, wo);
+    if (!pmf.any) return value;
+    if (wi.z > 0.0f)
+        addSameSide(b, wo, wi, pmf, value);
+    else if (b.transmits() && !transmitsSmoothly(b, wo))
+    {
+        if (b.thin)
+            addThrough(b, wo, wi, pmf, value);
+        else
+            addRefraction(b, wo, wi, pmf, transport, value);
+    }
+    return value;
+}
+
+SpecularLobes layeredLobes(const Bsdf& b, Vec3 wo)
+{
+    SpecularLobes lobes;
+    if (b.reflects() && b.isSmooth()) lobes.reflection = mirroredShare(b, wo);
+    if (hasClearcoat(b) && isClearcoatSmooth(b)) lobes.reflection += clearcoatShare(b, wo);
+    if (!b.transmits() || !transmitsSmoothly(b, wo)) return lobes;
+    const std::optional<Vec3> passed = refract(wo, Vec3(0.0f, 0.0f, 1.0f), b.transmittedEta());
+    if (!passed) return lobes;
+    lobes.refracted = *passed;
+    lobes.refraction = passedShare(b, wo, *passed, Transport::Radiance);
+    return lobes;
+}
+
+float baseAverageOf(const Bsdf& b)
+{
+    constexpr int kSteps = 64;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+    {
+        // The integral is int A dx with x = c^2, refined towards grazing by x = s^2.
+        const double s = (i + 0.5) / kSteps;
+        sum += aboveBase(b, static_cast<float>(s)) * 2.0 * s;
+    }
+    return static_cast<float>(std::max(sum / kSteps, 1e-6));
+}
+
+Vec3 straightTransmittance(const Bsdf& b, float cosTheta)
+{
+    if (!b.thin || !b.isSmooth() || !b.transmits()) return Vec3(0.0f);
+    return b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosTheta)) *
+           passedLayers(b, cosTheta, cosTheta);
+}
+
+} // namespace osgRayTrace::engine

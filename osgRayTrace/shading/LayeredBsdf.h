@@ -1,0 +1,44 @@
+// LayeredBsdf.h - surfaces with a clear coat, sheen, a thin wall or a reflectance of their own.
+// Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/shading/Bsdf.h"
+
+namespace osgRayTrace::engine
+{
+
+/// The layers of a surface stand one over the other, and each gets what those above leave:
+///
+///   f = sheen D V                                                          [Estevez17, sect. 2]
+///     + clearcoat Fc D G2 / (4 |wi.z wo.z|) min(Ss(wi), Ss(wo))
+///     + reflection and transmission of Bsdf, with F', times min(S(wi), S(wo))
+///     + diffuse/pi A(wi) A(wo) / A_avg
+///
+///   Ss = 1 - max(sheen) Es        what the sheen leaves, Es from SheenAlbedo  [Estevez17, sect. 3]
+///   S  = Ss (1 - clearcoat Ec)    what sheen and clear coat leave
+///   A  = S (1 - E')               what reaches the base; A_avg is its mean, Bsdf::baseAverage
+///
+/// The smaller of both directions keeps reflection reciprocal and within 1; the base follows
+/// [Kelemen01, sect. 3] through all layers, so that a white base keeps all energy. F' is the
+/// reflectance F of a dielectric of index eta with another reflectance R at normal incidence,
+///
+///   F' = specular (R + (1 - R) (F - F0) / (1 - F0)),   F0 that of eta,
+///
+/// which is Schlick's form [glTF20, KHR_materials_specular] with the exact F. A thin wall has two
+/// faces: light that goes to and fro between them makes 2 F' / (1 + F') of F', and the rest passes
+/// without being bent, spread by rough walls as their reflection is, on the other side. Within a
+/// body the layers are on the other side: light that leaves gets S of its direction outside.
+std::optional<BsdfSample> sampleLayered(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
+                                        Transport transport);
+BsdfValue evalLayered(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport);
+SpecularLobes layeredLobes(const Bsdf& bsdf, Vec3 wo);
+
+/// Returns A_avg of a surface, for the member of that name, by quadrature.
+float baseAverageOf(const Bsdf& bsdf);
+
+/// Returns the share of the light that passes a smooth thin wall straight, for a direction with
+/// this cosine to the normal.
+Vec3 straightTransmittance(const Bsdf& bsdf, float cosTheta);
+
+} // namespace osgRayTrace::engine

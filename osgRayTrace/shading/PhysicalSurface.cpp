@@ -1,0 +1,134 @@
+// PhysicalSurface.cpp - surface models of physical materials, textures and layers included. Layer:
+// shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/LayeredBsdf.h"
+#include "osgRayTrace/shading/MaterialTable.h"
+#include "osgRayTrace/shading/Sheen.h"
+#include "osgRayTrace/shading/TextureSample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+static Vec3 clampUnit(Vec3 v)
+{
+    return glm::clamp(v, 0.0f, 1.0f);
+}
+
+/// Sets the members of a record that only few materials need.
+void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
+{
+    const MaterialDetail& detail = *m.detail;
+    record.normalMap = hasNormalMap(m);
+    record.pane =
+        detail.thinWalled && m.transmission > 0.0f && m.metallic < 1.0f &&
+        (m.roughness * m.roughness < kSmoothAlpha || m.metallicRoughnessTexture != kInvalid);
+    record.absorbs = detail.absorbs() && m.transmission > 0.0f;
+    constexpr float kLeastColor = 1e-6f;
+    if (record.absorbs)
+        record.absorption =
+            -glm::log(glm::max(detail.attenuationColor, kLeastColor)) *
+            static_cast<float>(std::min(_scene->unit / double(detail.attenuationDistance), 1e30));
+}
+
+/// Makes a mix of a dielectric and a metal by metallic [glTF20, appendix B.2].
+Bsdf MaterialTable::physical(const Material& m, const MaterialPoint& point) const
+{
+    const Vec4 base = baseTexture(m, point);
+    const Vec4 metallicRoughness = textureOr(m, kMetallicRoughnessRole, point);
+    const Vec4 clear = textureOr(m, kTransmissionRole, point);
+    const Vec3 color = clampUnit(m.baseColor * Vec3(base));
+    const float metallic = std::clamp(m.metallic * metallicRoughness.z, 0.0f, 1.0f);
+    const float roughness = std::clamp(m.roughness * metallicRoughness.y, 0.0f, 1.0f);
+    const float transmission = std::clamp(m.transmission * clear.x, 0.0f, 1.0f);
+
+    Bsdf bsdf;
+    bsdf.alpha = roughness * roughness;
+    bsdf.diffuse = color * ((1.0f - metallic) * (1.0f - transmission));
+    bsdf.reflectance = color * metallic;
+    bsdf.grazing = metallic;
+    const float ior = usableIor(m.ior);
+    bsdf.coat = ior != 1.0f ? 1.0f - metallic : 0.0f;
+    bsdf.transmission = color * ((1.0f - metallic) * transmission);
+    // Only glass is seen as such from inside; an opaque body shows its outside on both sides.
+    bsdf.eta = point.front || !bsdf.transmits() ? ior : 1.0f / ior;
+    if (m.detail) addLayers(m, point, bsdf);
+    return bsdf;
+}
+
+/// Sets the members of a surface with layers: those of LayeredBsdf.h.
+void MaterialTable::addLayers(const Material& m, const MaterialPoint& point, Bsdf& bsdf) const
+{
+    const MaterialDetail& d = *m.detail;
+    bsdf.thin = d.thinWalled && bsdf.transmits();
+    if (bsdf.thin) bsdf.eta = usableIor(m.ior);
+    bsdf.inside = bsdf.transmits() && !point.front && !bsdf.thin;
+    bsdf.specular = std::clamp(d.specular * textureOr(m, kSpecularRole, point).w, 0.0f, 1.0f);
+    const Vec3 specularColor = d.specularColor * Vec3(textureOr(m, kSpecularColorRole, point));
+    const float root = (bsdf.eta - 1.0f) / (bsdf.eta + 1.0f);
+    bsdf.normalReflectance = clampUnit(specularColor * (root * root));
+    bsdf.clearcoat = std::clamp(d.clearcoat * textureOr(m, kClearcoatRole, point).x, 0.0f, 1.0f);
+    bsdf.sheen = clampUnit(d.sheenColor * Vec3(textureOr(m, kSheenColorRole, point)));
+    bsdf.layered = bsdf.thin || bsdf.specular != 1.0f || specularColor != Vec3(1.0f) ||
+                   bsdf.clearcoat > 0.0f || bsdf.sheen != Vec3(0.0f);
+    if (bsdf.sheen != Vec3(0.0f))
+    {
+        const float roughness =
+            std::clamp(d.sheenRoughness * textureOr(m, kSheenRoughnessRole, point).w,
+                       kLeastSheenRoughness, 1.0f);
+        bsdf.sheenAlpha = roughness * roughness;
+    }
+    if (bsdf.clearcoat == 0.0f) return;
+    const float roughness = std::clamp(
+        d.clearcoatRoughness * textureOr(m, kClearcoatRoughnessRole, point).y, 0.0f, 1.0f);
+    bsdf.clearcoatAlpha = roughness * roughness;
+    if (bsdf.clearcoatAlpha < kSmoothAlpha) return;
+    const CoatAlbedo::Place place = _clearcoat->at(roughness);
+    bsdf.clearcoatRows = place.rows;
+    bsdf.clearcoatFraction = place.fraction;
+}
+
+/// Makes the albedos of a rough clear coat, whose index is 1.5 [glTF20, KHR_materials_clearcoat].
+void MaterialTable::prepareClearcoat(const Material& m)
+{
+    const float roughness = std::clamp(m.detail->clearcoatRoughness, 0.0f, 1.0f);
+    if (roughness * roughness < kSmoothAlpha) return;
+    if (!_clearcoat) _clearcoat = CoatAlbedo::ofIndex(1.5f);
+    if (m.detail->textures[kClearcoatRoughnessRole] == kInvalid)
+        _clearcoat->prepare(roughness);
+    else
+        _clearcoat->prepareAll();
+}
+
+Vec3 MaterialTable::pane(uint32_t material, const MaterialPoint& point, float cosTheta) const
+{
+    const MaterialRecord& record = _records[material];
+    return straightTransmittance(record.constant ? record.front : bsdf(material, point), cosTheta);
+}
+
+Vec3 MaterialTable::mappedNormal(const Material& m, const MaterialPoint& point) const
+{
+    const Vec3 texel(textureOr(m, kNormalRole, point));
+    const float scale = m.detail->normalScale;
+    return (2.0f * texel - Vec3(1.0f)) * Vec3(scale, scale, 1.0f);
+}
+
+/// Returns the factor of base colour and alpha of a physical material.
+Vec4 MaterialTable::baseTexture(const Material& material, const MaterialPoint& point) const
+{
+    const Vec4 texel = textureOr(material, kBaseColorRole, point);
+    return material.detail && material.detail->vertexColors ? texel * point.vertexColor : texel;
+}
+
+/// Returns the texel of a physical texture, 1 if there is none.
+Vec4 MaterialTable::textureOr(const Material& m, TextureRole role, const MaterialPoint& point) const
+{
+    const uint32_t texture = textureOf(m, role);
+    if (texture == kInvalid) return Vec4(1.0f);
+    const Vec2 uv = m.detail ? placedUv(m.detail->places[role], point) : point.uv;
+    return sampleTexture(*_scene->textures[texture], uv);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,249 @@
+// LayeredBsdfTest.cpp - layers follow their densities, keep energy and are reciprocal. Layer:
+// tests.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+#include "tests/shading/BsdfDensity.h"
+#include "tests/shading/BsdfKinds.h"
+
+#include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/shading/Fresnel.h"
+#include "osgRayTrace/shading/LayeredBsdf.h"
+#include "osgRayTrace/shading/Sheen.h"
+
+#include <vector>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+Vec3 directionOf(double cosine, double phi)
+{
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    return Vec3(sine * std::cos(phi), sine * std::sin(phi), cosine);
+}
+
+Vec3 turned(Vec3 w)
+{
+    return Vec3(w.x, w.y, -w.z);
+}
+
+/// Returns the share of a photon's flux that is scattered.
+Estimate albedoOf(const Bsdf& bsdf, double cosine, int samples, uint32_t seed)
+{
+    Estimate estimate;
+    Uniform random(seed);
+    for (int i = 0; i < samples; ++i)
+    {
+        const float uLobe = random(), u = random(), v = random();
+        const std::optional<BsdfSample> sample =
+            sampleBsdf(bsdf, directionOf(cosine, 0.4), uLobe, u, v, Transport::Importance);
+        estimate.add(sample ? sample->weight.y : 0.0);
+    }
+    return estimate;
+}
+
+Material dielectric(float roughness, float transmission)
+{
+    Material material;
+    material.model = MaterialModel::Physical;
+    material.roughness = roughness;
+    material.transmission = transmission;
+    return material;
+}
+
+Bsdf withDetail(Material material, const MaterialDetail& detail, bool front = true)
+{
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    const std::vector<BsdfKind> kinds = kindsOf("", material);
+    return front ? kinds.front().bsdf : kinds.back().bsdf;
+}
+
+} // namespace
+
+TEST_CASE("layers: samples follow the density of evalBsdf", "[shading][statistics][long]")
+{
+    const std::vector<BsdfKind> kinds = layeredKinds();
+    const std::vector<Vec3> directions = {directionOf(0.9, 0.7), directionOf(0.2, 0.7)};
+    std::vector<DensityResult> results(kinds.size() * directions.size());
+    constexpr int kSamples = 40000;
+    Workers().forEach(results.size(),
+                      [&](std::size_t i)
+                      {
+                          results[i] = testDensity(kinds[i / directions.size()].bsdf,
+                                                   directions[i % directions.size()],
+                                                   static_cast<uint32_t>(i), kSamples);
+                      });
+    const double significance = sidak(0.01, static_cast<int>(results.size()));
+    for (std::size_t i = 0; i < results.size(); ++i)
+    {
+        const DensityResult& result = results[i];
+        CAPTURE(kinds[i / directions.size()].name, directions[i % directions.size()].z);
+        CHECK(result.fit > significance);
+        CHECK(result.withoutDensity < 5);
+        CHECK(result.inconsistent == 0);
+        CHECK(result.bad == 0);
+        CHECK(result.total < 1.0 + 1e-3);
+    }
+}
+
+TEST_CASE("layers: no surface makes energy, and lossless ones keep all", "[shading][statistics]")
+{
+    for (const BsdfKind& kind : layeredKinds())
+        for (const double cosine : {1.0, 0.7, 0.3, 0.1, 0.02})
+        {
+            const Estimate share = albedoOf(kind.bsdf, cosine, 30000, 2);
+            CAPTURE(kind.name, cosine, share.mean(), share.standardError());
+            CHECK(share.mean() < 1.002 + 4.0 * share.standardError());
+        }
+    // A white base below smooth layers gets what they leave.
+    MaterialDetail coated, dim, bright, both;
+    coated.clearcoat = 0.7f;
+    dim.specular = 0.3f;
+    bright.specularColor = Vec3(6.0f);
+    both = bright;
+    both.clearcoat = 1.0f;
+    for (const MaterialDetail& detail : {coated, dim, bright, both})
+        for (const double cosine : {1.0, 0.5, 0.1})
+        {
+            const Estimate share =
+                albedoOf(withDetail(dielectric(0.0f, 0.0f), detail), cosine, 100000, 3);
+            CAPTURE(detail.clearcoat, detail.specular, cosine, share.mean());
+            CHECK(share.agrees(1.0, 5e-4));
+        }
+    // A smooth wall loses nothing either.
+    MaterialDetail thin;
+    thin.thinWalled = true;
+    CHECK(albedoOf(withDetail(dielectric(0.0f, 1.0f), thin), 0.5, 20000, 4).agrees(1.0, 1e-5));
+}
+
+TEST_CASE("layers: reflection and thin walls are the same both ways", "[shading]")
+{
+    Uniform random(4);
+    for (const BsdfKind& kind : layeredKinds())
+    {
+        CAPTURE(kind.name);
+        for (int i = 0; i < 500; ++i)
+        {
+            const Vec3 a = directionOf(random.between(0.01, 1.0), random.between(0.0, 6.28));
+            const Vec3 b = directionOf(random.between(0.01, 1.0), random.between(0.0, 6.28));
+            const Vec3 ab = evalBsdf(kind.bsdf, a, b).fCos / b.z;
+            const Vec3 ba = evalBsdf(kind.bsdf, b, a).fCos / a.z;
+            REQUIRE(glm::length(ab - ba) <= 2e-3f * glm::length(ab) + 1e-5f);
+            if (!kind.bsdf.thin) continue;
+            const Vec3 through = evalBsdf(kind.bsdf, a, turned(b)).fCos / b.z;
+            const Vec3 back = evalBsdf(kind.bsdf, b, turned(a)).fCos / a.z;
+            REQUIRE(glm::length(through - back) <= 2e-3f * glm::length(through) + 1e-5f);
+        }
+    }
+}
+
+TEST_CASE("layers: refraction under a coat is its adjoint from inside", "[shading]")
+{
+    MaterialDetail detail;
+    detail.clearcoat = 0.8f;
+    detail.sheenColor = Vec3(0.5f);
+    detail.specular = 0.9f;
+    const Bsdf near = withDetail(dielectric(0.5f, 1.0f), detail);
+    const Bsdf far = withDetail(dielectric(0.5f, 1.0f), detail, false);
+    REQUIRE(far.inside);
+    Uniform random(5);
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i)
+    {
+        const Vec3 wo = directionOf(random.between(0.05, 1.0), random.between(0.0, 6.28));
+        const auto sample = sampleBsdf(near, wo, random.between(0.5, 1.0), random(), random());
+        if (!sample || !sample->transmitted || sample->wi.z > -0.05f) continue;
+        const float radiance = evalBsdf(near, wo, sample->wi).fCos.x / -sample->wi.z;
+        const float importance =
+            evalBsdf(far, turned(sample->wi), turned(wo), Transport::Importance).fCos.x / wo.z;
+        REQUIRE(importance == Approx(radiance).epsilon(2e-2));
+        ++compared;
+    }
+    CHECK(compared > 500);
+}
+
+TEST_CASE("layers: without effect they are the surface without layers", "[shading]")
+{
+    Uniform random(6);
+    for (const float transmission : {0.0f, 0.5f})
+        for (const bool front : {true, false})
+        {
+            Bsdf plain = withDetail(dielectric(0.4f, transmission), {}, front);
+            REQUIRE_FALSE(plain.layered);
+            Bsdf layered = plain;
+            layered.layered = true;
+            layered.inside = !front && transmission > 0.0f;
+            const float root = (plain.eta - 1.0f) / (plain.eta + 1.0f);
+            layered.normalReflectance = Vec3(root * root);
+            layered.baseAverage = baseAverageOf(layered);
+            for (int i = 0; i < 1000; ++i)
+            {
+                const Vec3 wo = directionOf(random.between(0.05, 1.0), random.between(0.0, 6.28));
+                const Vec3 wi = directionOf(random.between(-1.0, 1.0), random.between(0.0, 6.28));
+                const BsdfValue a = evalBsdf(plain, wo, wi), b = evalBsdf(layered, wo, wi);
+                CAPTURE(transmission, front, wo.z, wi.z);
+                REQUIRE(b.fCos.y == Approx(a.fCos.y).epsilon(2e-3).margin(1e-6));
+            }
+        }
+}
+
+TEST_CASE("layers: a pane passes (1-R)/(1+R) straight, and tints it", "[shading]")
+{
+    MaterialDetail detail;
+    detail.thinWalled = true;
+    Material green = dielectric(0.0f, 1.0f);
+    green.baseColor = Vec3(0.25f, 1.0f, 0.5f);
+    const Bsdf pane = withDetail(green, detail);
+    for (const double degrees : {0.0, 60.0})
+    {
+        const double cosine = std::cos(degrees * M_PI / 180.0);
+        const double r = fresnelDielectric(static_cast<float>(cosine), 1.5f);
+        const Vec3 wo = directionOf(cosine, 1.0);
+        const SpecularLobes lobes = specularLobes(pane, wo);
+        CHECK(glm::length(lobes.refracted + wo) < 1e-6f);
+        CHECK(lobes.refraction.y == Approx((1.0 - r) / (1.0 + r)).epsilon(1e-5));
+        CHECK(lobes.refraction.x == Approx(0.25f * lobes.refraction.y).epsilon(1e-5));
+        CHECK(lobes.reflection.y == Approx(2.0 * r / (1.0 + r)).epsilon(1e-5));
+        CHECK(straightTransmittance(pane, static_cast<float>(cosine)).y ==
+              Approx(lobes.refraction.y));
+    }
+}
+
+TEST_CASE("layers: the table of sheen is the integral of its lobe, or 1 if that is more",
+          "[shading]")
+{
+    for (const float roughness : {0.1f, 0.13f, 0.3f, 0.6f, 1.0f})
+        for (const float cosine : {1.0f, 0.6f, 0.2f, 0.05f, 0.005f})
+        {
+            const Vec3 wo = directionOf(cosine, 0.0);
+            constexpr int kSteps = 150; // the midpoint rule in the square root of the cosine
+            double integral = 0.0;
+            for (int k = 0; k < kSteps * kSteps; ++k)
+            {
+                const double x = (k / kSteps + 0.5) / kSteps;
+                const Vec3 wi = directionOf(x * x, M_PI * (k % kSteps + 0.5) / kSteps);
+                integral += evalSheen(roughness * roughness, wo, wi) * wi.z * 2.0 * x;
+            }
+            integral *= 2.0 * M_PI / (kSteps * kSteps);
+            const double albedo = sheenAlbedo(roughness * roughness, cosine);
+            CAPTURE(roughness, cosine, integral, albedo);
+            CHECK(integral < 1.0);
+            CHECK(albedo == Approx(integral).margin(integral > 0.9 ? 0.08 : 0.025));
+            CHECK(integral + 1.0 - albedo < 1.005); // what a white base below it has at most
+        }
+}
+
+TEST_CASE("layers: a specular colour changes what is reflected at normal incidence", "[shading]")
+{
+    MaterialDetail detail;
+    detail.specular = 0.5f;
+    detail.specularColor = Vec3(2.0f, 1.0f, 100.0f);
+    const SpecularLobes lobes =
+        specularLobes(withDetail(dielectric(0.0f, 0.0f), detail), Vec3(0, 0, 1));
+    CHECK(lobes.reflection.x == Approx(0.5f * 0.08f).epsilon(1e-4));
+    CHECK(lobes.reflection.y == Approx(0.5f * 0.04f).epsilon(1e-4));
+    CHECK(lobes.reflection.z == Approx(0.5f).epsilon(1e-4));
+}
