@@ -1,6 +1,7 @@
 // LiveSceneTest.cpp - what is redone for each kind of edit, and that the picture is that of a fresh
 // conversion.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/session/history/SceneChange.h"
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
@@ -295,4 +296,16 @@ TEST_CASE("live scene: edits of single objects differ from the last version by t
     CHECK(changed(changeBy([] {})) == 0);
     CHECK(changed(changeBy([&] { graph.light->getLight()->setDiffuse(osg::Vec4(1, 0, 0, 1)); })) ==
           -1);
+}
+
+TEST_CASE("live scene: views keep what has not changed unless the settings say otherwise",
+          "[bridge]")
+{
+    const osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
+    ViewInputs inputs;
+    setInputs(inputs, *settings);
+    CHECK(inputs.keepsUnchanged);
+    settings->setKeepUnchanged(false);
+    setInputs(inputs, *settings);
+    CHECK_FALSE(inputs.keepsUnchanged);
 }
