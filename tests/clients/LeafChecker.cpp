@@ -119,14 +119,19 @@ Leaves leavesOf(const CullPass& pass, const ViewingConditions& conditions,
     return leaves;
 }
 
-ConversionInput inputOf(const ViewingConditions& conditions, osg::Node& root)
+/// masks: traversal masks of all views.
+ConversionInput inputOf(const ViewingConditions& conditions, const std::set<unsigned int>& masks,
+                        osg::Node& root)
 {
     ConversionInput input;
     input.root = &root;
     input.eye = conditions.eye;
     input.view = conditions.view;
     input.pass = conditions.pass;
-    input.traversalMask = conditions.traversalMask;
+    input.traversalMask = 0;
+    for (const unsigned int mask : masks)
+        input.traversalMask |= mask;
+    if (masks.size() > 1) input.viewMasks.assign(masks.begin(), masks.end());
     input.viewLight = conditions.light;
     input.viewLightInEyeSpace = conditions.lightInEyeSpace;
     input.inheritedState = conditions.inheritedState;
@@ -291,7 +296,8 @@ void write(const Tally& tally)
         file << "lost-leaf " << name << '\n';
 }
 
-void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor)
+void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
+           const std::set<unsigned int>& masks)
 {
     ViewingConditions conditions = viewingConditions(visitor);
     if (!conditions.view || !visitor.getFrameStamp()) return;
@@ -304,7 +310,7 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor)
     const TextureConverter textures;
     RuleCaches rules;
     ConversionReport report;
-    const ConversionInput input = inputOf(conditions, *root);
+    const ConversionInput input = inputOf(conditions, masks, *root);
     GraphCollector collector(input, vertices, triangles, textures, rules, report);
     root->accept(collector);
     const CollectedGraph graph = collector.take();
@@ -341,15 +347,23 @@ unsigned int frameToCheck()
     return unsigned(std::max(2, frames ? std::atoi(frames) : 30)) - 1;
 }
 
-/// Returns true once for each scene, in the frame to check or in the first one behind it.
-bool isDue(const RayTracedScene& scene, const osgUtil::CullVisitor& visitor)
+/// Returns the traversal masks of all views of a scene if this view of it is to be checked: once
+/// for each mask, in the frame to check or in the first one behind it.
+std::set<unsigned int> masksIfDue(const RayTracedScene& scene, const osgUtil::CullVisitor& visitor)
 {
-    static std::mutex mutex;
-    static auto* checked = new std::set<const RayTracedScene*>; // outlives the program's threads
+    struct Checked
+    {
+        std::mutex mutex;
+        std::map<const RayTracedScene*, std::set<unsigned int>> masks, checked;
+    };
+    static auto* state = new Checked; // outlives the program's threads
+    const unsigned int mask = visitor.getTraversalMask();
     const bool late =
         visitor.getFrameStamp() && visitor.getFrameStamp()->getFrameNumber() >= frameToCheck();
-    const std::lock_guard<std::mutex> lock(mutex);
-    return late && scene.getEnabled() && checked->insert(&scene).second;
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    state->masks[&scene].insert(mask);
+    if (!late || !scene.getEnabled() || !state->checked[&scene].insert(mask).second) return {};
+    return state->masks[&scene];
 }
 
 } // namespace
@@ -361,6 +375,9 @@ osgRayTrace::RayTracedScene::traverse(osg::NodeVisitor& visitor)
     static const auto traverse = reinterpret_cast<Traverse>(
         dlsym(RTLD_NEXT, "_ZN11osgRayTrace14RayTracedScene8traverseERN3osg11NodeVisitorE"));
     if (osgUtil::CullVisitor* cull = visitor.asCullVisitor())
-        if (isDue(*this, *cull)) check(*this, *cull);
+    {
+        const std::set<unsigned int> masks = masksIfDue(*this, *cull);
+        if (!masks.empty()) check(*this, *cull, masks);
+    }
     traverse(this, visitor);
 }

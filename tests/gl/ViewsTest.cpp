@@ -203,6 +203,45 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
     CHECK(differenceInside("slaves", *drawn, *traced) == 0.0);
 }
 
+TEST_CASE("views: what node masks hide from some views is OSG's", "[gl]")
+{
+    const auto masked = []
+    {
+        osg::ref_ptr<osg::Group> group = squares();
+        group->getChild(0)->setNodeMask(1);
+        group->getChild(1)->asGroup()->getChild(0)->setNodeMask(2);
+        return group;
+    };
+    for (int captured = 0; captured < 2; ++captured)
+    {
+        CAPTURE(captured);
+        const auto setUp = [captured](TestViewer& view)
+        {
+            for (int i = 0; i < 2; ++i)
+            {
+                osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+                camera->setGraphicsContext(view.camera().getGraphicsContext());
+                camera->setViewport(i * kSize / 2, 0, kSize / 2, kSize);
+                camera->setClearColor(osg::Vec4(0, 0, 0, 1));
+                camera->setRenderOrder(osg::Camera::POST_RENDER);
+                camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+                camera->setCullMask(1u << i);
+                if (i == captured) camera->addFinalDrawCallback(view.capture.get());
+                view.viewer.addSlave(camera.get());
+            }
+        };
+        const osg::ref_ptr<osg::Image> drawn = picture(masked().get(), setUp, 2);
+        const osg::ref_ptr<RayTracedScene> scene = tracedScene(masked().get());
+        scene->getSettings()->setPassesPerFrame(61);
+        TestViewer view(kSize, kSize, scene.get());
+        setUp(view);
+        const osg::ref_ptr<osg::Image> traced = view.frames(3);
+        CHECK(differenceInside("masks", *drawn, *traced) == 0.0);
+        CHECK(statistics(*scene).conversion["rasterized.view-mask"] == 2);
+        CHECK(statistics(*scene).conversions <= 3); // one for each view of the first frame
+    }
+}
+
 TEST_CASE("views: a scene that a pass shows twice has an image for each, nested cameras too",
           "[gl]")
 {

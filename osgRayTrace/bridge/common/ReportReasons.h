@@ -73,6 +73,7 @@ constexpr ReportReason kReportReasons[] = {
     {"rasterized.texture-combine", "drawables with a TexEnvCombine"},
     {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
     {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
+    {"rasterized.view-mask", "drawables that the node masks of some views hide"},
     {"rasterized.volume", "osgVolume's volumes"},
 
     {"traced.proxy", "uses of surfaces that OSG draws, traced for all rays but the camera's"},

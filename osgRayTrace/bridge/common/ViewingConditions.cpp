@@ -138,8 +138,9 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
 
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
 {
-    return a.traversalMask == b.traversalMask && a.lightInEyeSpace == b.lightInEyeSpace &&
-           a.clearColor == b.clearColor && sameLight(a.light.get(), b.light.get(), a.eye);
+    return a.traversalMask == b.traversalMask && a.viewMasks == b.viewMasks &&
+           a.lightInEyeSpace == b.lightInEyeSpace && a.clearColor == b.clearColor &&
+           sameLight(a.light.get(), b.light.get(), a.eye);
 }
 
 } // namespace osgRayTrace::engine

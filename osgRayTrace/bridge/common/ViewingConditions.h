@@ -26,9 +26,11 @@ namespace osgRayTrace::engine
 struct ViewingConditions
 {
     osg::Vec3d eye;
-    std::optional<ReferenceView> view; ///< nothing if there is no viewport
-    std::shared_ptr<CullPass> pass;    ///< null: no cull traversal has reached the scene
-    unsigned int traversalMask = 0xffffffffu;
+    std::optional<ReferenceView> view;        ///< nothing if there is no viewport
+    std::shared_ptr<CullPass> pass;           ///< null: no cull traversal has reached the scene
+    unsigned int traversalMask = 0xffffffffu; ///< of all views together
+    /// Masks of the views, in rising order; empty: they have the same.
+    std::vector<unsigned int> viewMasks;
 
     /// Copy of the first light that the pass had when it came to the scene; null: none. The light
     /// is osgViewer's own, which is in no graph, unless the viewer has none.

@@ -67,6 +67,7 @@ struct ConversionInput : ConversionSettings
     std::shared_ptr<CullPass> pass;
     osg::Vec3d origin; ///< origin of the engine's coordinates in world space
     unsigned int traversalMask = 0xffffffffu;
+    std::vector<unsigned int> viewMasks; ///< see ViewingConditions
     /// Light that osgViewer adds outside of the graph, in view space (headlight) or world space
     /// (sky light); null: none. A light of the same number in the graph replaces it.
     osg::ref_ptr<const osg::Light> viewLight;

@@ -255,8 +255,9 @@ void GraphCollector::walkBelow(osg::Node& node)
 bool GraphCollector::collectsInCull(osg::Node& node)
 {
     if (_lightsOnly || _isLeft || _leftToOsg > 0 || &node == _input.root) return false;
-    if (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
-        leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node))
+    const bool someSee = node.asGroup() && isForSomeViews(node);
+    if (someSee || (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
+                    leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node)))
     {
         rasterize();
         _isLeft = true;

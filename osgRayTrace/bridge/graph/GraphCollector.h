@@ -111,6 +111,7 @@ private:
                                   CullOutcome& outcome);
     bool collectsChosen(osg::Drawable& drawable);
     bool leavesOut(const osg::Drawable& drawable);
+    bool isForSomeViews(const osg::Node& node);
     bool collectsInCull(osg::Node& node);
     void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
     static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);

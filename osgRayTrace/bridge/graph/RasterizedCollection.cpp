@@ -8,14 +8,26 @@
 
 #include <osg/Billboard>
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
+
+/// Returns whether the mask of the last node of the path hides it from some of the views: those
+/// that see it have it from OSG.
+bool GraphCollector::isForSomeViews(const osg::Node& node)
+{
+    const bool hidden =
+        std::any_of(_input.viewMasks.begin(), _input.viewMasks.end(),
+                    [&node](unsigned int mask) { return (node.getNodeMask() & mask) == 0; });
+    return hidden && _input.rasterizesRest && hintOf(getNodePath()) != DrawHint::Trace;
+}
 
 /// Returns whether OSG has to draw something in the billboard. OSG then draws all of the billboard,
 /// because it places its drawables.
 bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 {
-    bool leaves = false;
+    bool leaves = isForSomeViews(billboard);
     for (unsigned int i = 0; i < billboard.getNumDrawables() && !leaves; ++i)
     {
         osg::Drawable* drawable = billboard.getDrawable(i);
@@ -103,6 +115,7 @@ const char* GraphCollector::rasterizedReason(const osg::Geometry& geometry, bool
     const char* reason = rasterizedState(_states.states()[state], _textures, poses);
     const DrawHint hint = hintOf(getNodePath());
     if (leavesToOsg(hint)) return "rasterized.hint";
+    if (_isLeft || isForSomeViews(*getNodePath().back())) return "rasterized.view-mask";
     return hint == DrawHint::Trace ? nullptr : reason;
 }
 

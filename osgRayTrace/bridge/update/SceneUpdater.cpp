@@ -53,6 +53,7 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
     std::lock_guard<std::mutex> lock(_recordedMutex);
+    recordMask(conditions.traversalMask, frameNumber);
     if (_recorded.conditions && _recorded.camera != camera &&
         ++_recorded.othersSince < kReferenceExpiry)
         return;
@@ -67,6 +68,15 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
         _recorded.conditions ? _recorded.conditions->pass : nullptr;
     _recorded.conditions = conditions;
     if (visitor) _recorded.conditions->pass = cullPass(*visitor, last);
+}
+
+/// Records the mask of a pass, by which its view shows only some of the nodes.
+void SceneUpdater::recordMask(unsigned int mask, unsigned int frameNumber)
+{
+    if (frameNumber != _recorded.maskFrame) _recorded.masksBefore = std::move(_recorded.masks);
+    if (frameNumber != _recorded.maskFrame) _recorded.masks.clear();
+    _recorded.maskFrame = frameNumber;
+    _recorded.masks.insert(mask);
 }
 
 bool SceneUpdater::isViewed() const
@@ -172,7 +182,14 @@ std::optional<ViewingConditions> SceneUpdater::takeRecorded()
     _asked.forget |= more.forget;
     if (more.cause != ConversionCause::None) _asked.cause = more.cause;
     if (more.origin) _asked.origin = more.origin;
-    return _recorded.conditions;
+    std::optional<ViewingConditions> conditions = _recorded.conditions;
+    std::set<unsigned int> masks = _recorded.masks; // the frame may have more passes to come
+    masks.insert(_recorded.masksBefore.begin(), _recorded.masksBefore.end());
+    if (!conditions || masks.size() < 2) return conditions;
+    conditions->viewMasks.assign(masks.begin(), masks.end());
+    for (const unsigned int mask : masks)
+        conditions->traversalMask |= mask;
+    return conditions;
 }
 
 void SceneUpdater::takeSettings(const RayTraceSettings& settings)
@@ -315,6 +332,7 @@ ConversionResult SceneUpdater::convert(osg::Node& root, const ViewingConditions&
     input.pass = conditions.pass;
     input.origin = *_origin;
     input.traversalMask = conditions.traversalMask;
+    input.viewMasks = conditions.viewMasks;
     input.viewLight = conditions.light;
     input.viewLightInEyeSpace = conditions.lightInEyeSpace;
     input.lighting = conditions.inheritedState.empty();

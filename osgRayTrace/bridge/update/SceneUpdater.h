@@ -22,6 +22,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace osgRayTrace::engine
 {
@@ -93,9 +94,13 @@ private:
         unsigned int frameNumber = 0; ///< frame in which the camera was last seen
         unsigned int othersSince = 0; ///< passes of other cameras since the last of this one
         std::optional<ViewingConditions> conditions;
+        std::set<unsigned int> masks; ///< traversal masks of the passes of the frame maskFrame
+        std::set<unsigned int> masksBefore; ///< those of the frame before
+        unsigned int maskFrame = 0;
         Requests asked{true, false, {}, ConversionCause::None};
     };
 
+    void recordMask(unsigned int mask, unsigned int frameNumber);
     std::optional<ViewingConditions> takeRecorded();
     void takeSettings(const RayTraceSettings& settings);
     void convertIfChanged(osg::Node* root, ViewingConditions conditions,
