@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,16 @@ std::string wordOf(std::initializer_list<float> values)
     return text.str();
 }
 
+std::string wordOf(float value)
+{
+    return wordOf({value});
+}
+
+std::string wordOf(bool value)
+{
+    return wordOf({value ? 1.0f : 0.0f});
+}
+
 std::string wordOf(const osg::Vec3& v)
 {
     return wordOf({v.x(), v.y(), v.z()});
@@ -78,6 +89,22 @@ std::vector<float> valuesOf(const std::string& word, std::size_t count)
     return values;
 }
 
+void read(const std::string& word, float& value)
+{
+    value = valuesOf(word, 1)[0];
+}
+
+void read(const std::string& word, bool& value)
+{
+    value = valuesOf(word, 1)[0] != 0.0f;
+}
+
+void read(const std::string& word, osg::Vec3& value)
+{
+    const std::vector<float> v = valuesOf(word, 3);
+    value.set(v[0], v[1], v[2]);
+}
+
 /// Describes a parameter that is a number, a flag or a colour.
 struct Parameter
 {
@@ -86,40 +113,32 @@ struct Parameter
     void (*set)(PhysicalMaterial&, const std::string&);
 };
 
-#define OSGRAYTRACE_NUMBER(name, Name)                                                             \
-    {                                                                                              \
-        name, [](const PhysicalMaterial& m) { return wordOf({float(m.get##Name())}); },            \
-            [](PhysicalMaterial& m, const std::string& word)                                       \
-        { m.set##Name(valuesOf(word, 1)[0]); }                                                     \
-    }
-#define OSGRAYTRACE_FLAG(name, Name)                                                               \
-    {                                                                                              \
-        name, [](const PhysicalMaterial& m) { return wordOf({m.get##Name() ? 1.0f : 0.0f}); },     \
-            [](PhysicalMaterial& m, const std::string& word)                                       \
-        { m.set##Name(valuesOf(word, 1)[0] != 0.0f); }                                             \
-    }
-#define OSGRAYTRACE_COLOR(name, Name)                                                              \
-    {                                                                                              \
-        name, [](const PhysicalMaterial& m) { return wordOf(m.get##Name()); },                     \
-            [](PhysicalMaterial& m, const std::string& word)                                       \
-        {                                                                                          \
-            const std::vector<float> v = valuesOf(word, 3);                                        \
-            m.set##Name(osg::Vec3(v[0], v[1], v[2]));                                              \
-        }                                                                                          \
-    }
+/// Returns the parameter of a getter and a setter.
+template <auto kGet, auto kSet> constexpr Parameter parameter(const char* name)
+{
+    return {name, [](const PhysicalMaterial& material) { return wordOf((material.*kGet)()); },
+            [](PhysicalMaterial& material, const std::string& word)
+            {
+                std::decay_t<decltype((material.*kGet)())> value;
+                read(word, value);
+                (material.*kSet)(value);
+            }};
+}
 
-const Parameter kParameters[] = {OSGRAYTRACE_NUMBER("alpha", Alpha),
-                                 OSGRAYTRACE_FLAG("vertexColors", VertexColors),
-                                 OSGRAYTRACE_NUMBER("normalScale", NormalScale),
-                                 OSGRAYTRACE_FLAG("thinWalled", ThinWalled),
-                                 OSGRAYTRACE_COLOR("attenuationColor", AttenuationColor),
-                                 OSGRAYTRACE_NUMBER("attenuationDistance", AttenuationDistance),
-                                 OSGRAYTRACE_NUMBER("specular", Specular),
-                                 OSGRAYTRACE_COLOR("specularColor", SpecularColor),
-                                 OSGRAYTRACE_NUMBER("clearcoat", Clearcoat),
-                                 OSGRAYTRACE_NUMBER("clearcoatRoughness", ClearcoatRoughness),
-                                 OSGRAYTRACE_COLOR("sheenColor", SheenColor),
-                                 OSGRAYTRACE_NUMBER("sheenRoughness", SheenRoughness)};
+using M = PhysicalMaterial;
+constexpr Parameter kParameters[] = {
+    parameter<&M::getAlpha, &M::setAlpha>("alpha"),
+    parameter<&M::getVertexColors, &M::setVertexColors>("vertexColors"),
+    parameter<&M::getNormalScale, &M::setNormalScale>("normalScale"),
+    parameter<&M::getThinWalled, &M::setThinWalled>("thinWalled"),
+    parameter<&M::getAttenuationColor, &M::setAttenuationColor>("attenuationColor"),
+    parameter<&M::getAttenuationDistance, &M::setAttenuationDistance>("attenuationDistance"),
+    parameter<&M::getSpecular, &M::setSpecular>("specular"),
+    parameter<&M::getSpecularColor, &M::setSpecularColor>("specularColor"),
+    parameter<&M::getClearcoat, &M::setClearcoat>("clearcoat"),
+    parameter<&M::getClearcoatRoughness, &M::setClearcoatRoughness>("clearcoatRoughness"),
+    parameter<&M::getSheenColor, &M::setSheenColor>("sheenColor"),
+    parameter<&M::getSheenRoughness, &M::setSheenRoughness>("sheenRoughness")};
 
 /// Returns the parameters that are not defaults, by name. The word of a texture is 1.
 Words wordsOf(const PhysicalMaterial& material)
