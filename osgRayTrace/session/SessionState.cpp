@@ -121,6 +121,7 @@ void SessionState::resetFilm(bool continues)
         }
     film.reset(view.width, view.height);
     surfaces.finished = false;
+    filmContinues = continues;
     if (continues)
         film.holdDepths();
     else

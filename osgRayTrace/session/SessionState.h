@@ -32,10 +32,7 @@ struct SessionState
     double estimateError() const;
     void addTileCounts();
     double imageShare() const;
-    bool hasAllDepths() const
-    {
-        return film.tileCount() > 0 && (film.passes() > 0 || film.hasDepth(0));
-    }
+    bool hasAllDepths() const { return film.passes() > 0 || filmContinues; }
     RenderProgress run(const StopRule& rule,
                        const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);
@@ -69,6 +66,7 @@ struct SessionState
     std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;
     Film film;
+    bool filmContinues = false; // whether tiles without a pass have depths of the image before
     std::vector<SurfaceSample> samples; // samples of the film's pixels, if it has them
     bool hasSamples = false;            // whether the film has samples, or will with its first pass
     SurfaceMap surfaces, lastSurfaces;
