@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/MaterialValues.h"
 
+#include "osgPlugins/gltf/Glossiness.h"
+
 namespace osgRayTrace::gltf
 {
 
@@ -30,9 +32,19 @@ void setSpecularGlossiness(const JsonPlace& old, TextureReader& textures, Docume
     values.specularColor =
         toVec3(old.numbersOr<3>("specularFactor", {1.0f, 1.0f, 1.0f})) / kDielectric;
     values.specularColorTexture = textures.read(old, "specularGlossinessTexture");
-    if (values.specularColorTexture)
-        document.note(old.path() + ".specularGlossinessTexture: its colour is read; the "
+    if (!values.specularColorTexture) return;
+    const float glossiness = old.numberOr("glossinessFactor", 1.0f);
+    values.metallicRoughnessTexture = values.specularColorTexture;
+    auto& texture = values.metallicRoughnessTexture->texture;
+    texture = roughnessOf(*texture, glossiness);
+    if (texture)
+        values.roughness = 1.0f;
+    else
+    {
+        values.metallicRoughnessTexture.reset();
+        document.note(old.path() + ".specularGlossinessTexture: has no alpha of bytes; the "
                                    "glossiness is the factor's alone");
+    }
 }
 
 void setMetallicRoughness(const JsonPlace& pbr, TextureReader& textures, MaterialValues& values)

@@ -231,6 +231,25 @@ TEST_CASE("gltf: the old workflow of specular colour and glossiness", "[gltf]")
     CHECK(physical.getSpecularColor().z() == Approx(12.5f));
 }
 
+TEST_CASE("gltf: the alpha of a specular colour is a glossiness", "[gltf]")
+{
+    Json model = modelOf(R"({ "extensions": { "KHR_materials_pbrSpecularGlossiness":
+        { "glossinessFactor": 0.5, "specularGlossinessTexture": { "index": 1 } } } })");
+    // One pixel of 10, 20, 30 and the alpha 51.
+    model["images"][0]["uri"] =
+        "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR4nGPg"
+        "EpEzBgAA2ABwyFBEOAAAAABJRU5ErkJggg==";
+    const auto scene = sceneOf(model);
+    const PhysicalMaterial& physical = *physicalOf(geometryOf(*scene));
+    const osg::Texture2D* roughness =
+        physical.getTexture(PhysicalMaterial::METALLIC_ROUGHNESS_TEXTURE);
+    REQUIRE(roughness);
+    CHECK(physical.getRoughness() == 1.0f);
+    CHECK(roughness->getImage()->getColor(0u, 0u).g() == Approx(1 - 0.5 * 0.2).margin(0.003));
+    CHECK(roughness->getWrap(osg::Texture::WRAP_S) == osg::Texture::CLAMP_TO_EDGE);
+    CHECK(physical.getTexture(PhysicalMaterial::SPECULAR_COLOR_TEXTURE));
+}
+
 TEST_CASE("gltf: a variant has its own materials", "[gltf]")
 {
     Json model = modelOf(R"({ "name": "plain" })");
