@@ -5,6 +5,7 @@
 #include "tests/session/BudgetScreen.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 using namespace osgRayTrace;
@@ -117,6 +118,39 @@ TEST_CASE("frame budget: a view that stops before a moving cube gets its full re
     }
     CHECK(screen.tracer.frame().divider == 1);
     CHECK(slow <= 2); // the first whole pass, and the frame in which the surfaces are looked for
+}
+
+TEST_CASE("frame budget: what is kept is denoised with the tiles that have no pass", "[session]")
+{
+    const Room room;
+    Screen screen;
+    screen.inputs.keepsUnchanged = true;
+    screen.inputs.denoise = DenoiseKind::Filter;
+    screen.inputs.maxPasses = 1000;
+    screen.inputs.scene = room.at(100.0f);
+    for (int i = 0; i < 20; ++i)
+        screen.frame(0.0);
+    for (int i = 0; i < 4; ++i)
+    {
+        screen.inputs.scene = room.at(100.0f + 4.0f * float(i));
+        screen.frame(0.0);
+    }
+    REQUIRE(screen.tracer.progress().passes == 0);
+    REQUIRE(screen.resolved);
+    CHECK(screen.shown.width == kWidth);
+    double sum = 0.0;
+    int black = 0;
+    const std::vector<float> image = screen.tracer.radiance();
+    const std::vector<float> reference =
+        render(screen.inputs.scene, viewAt(0.0), screen.inputs.options, 64).rgba;
+    REQUIRE(image.size() == reference.size());
+    for (std::size_t i = 0; i < image.size(); i += 4)
+    {
+        sum += image[i] - reference[i];
+        black += !(image[i + 3] > 0.0f);
+    }
+    CHECK(black == 0);
+    CHECK(std::abs(sum) < 0.02 * double(image.size()) / 4.0);
 }
 
 TEST_CASE("frame budget: views that agree keep nothing", "[session]")
