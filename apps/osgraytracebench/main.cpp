@@ -9,6 +9,7 @@
 #include "apps/osgraytracebench/modes/FeaturesMode.h"
 #include "apps/osgraytracebench/modes/InteractiveMode.h"
 #include "apps/osgraytracebench/modes/LimitMode.h"
+#include "apps/osgraytracebench/modes/MovingMode.h"
 #include "apps/osgraytracebench/modes/PickMode.h"
 #include "apps/osgraytracebench/modes/ReprojectMode.h"
 #include "apps/osgraytracebench/modes/TrafficMode.h"
@@ -159,6 +160,44 @@ Run addInteractive(CLI::App& mode)
     return [=] { return runRows([&](Rows& rows) { measureInteractive(*options, rows); }, *json); };
 }
 
+Run addMoving(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<MovingOptions>();
+    mode.add_option("--width", options->width, "width of the view [pixels]")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    mode.add_option("--height", options->height, "height of the view [pixels]")
+        ->check(CLI::Range(16, 8192))
+        ->capture_default_str();
+    mode.add_option("--threads", options->threads, "threads to trace with")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    mode.add_option("--budget", options->budget, "budget of a frame [ms]")
+        ->check(CLI::Range(0.1, 10000.0))
+        ->capture_default_str();
+    mode.add_flag("--cpu-clock", options->cpuClock,
+                  "time by what the process takes of its cores, over its threads: as on a machine "
+                  "of its own");
+    mode.add_option("--references", options->references,
+                    "passes of the pictures that frames are compared with")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    mode.add_flag_callback(
+        "--path", [options] { options->integrator = engine::IntegratorKind::Path; },
+        "trace paths, where whitted would do");
+    mode.add_option("--pictures", options->pictures, "write the pictures to this folder as well");
+    mode.add_option("--only", options->only,
+                    "scenes whose name holds this: terrain, traffic or that of a MODEL");
+    mode.add_option("MODEL", options->models, "measure these files, too");
+    return [=]
+    {
+        app::addPluginPath();
+        return runRows([&](Rows& rows) { measureMoving(*options, rows); }, *json,
+                       options->pictures);
+    };
+}
+
 Run addReproject(CLI::App& mode)
 {
     const auto json = addJson(mode);
@@ -263,6 +302,8 @@ public:
             addUpsample);
         add("interactive", "whether the frames of a moving camera keep to their budgets",
             addInteractive);
+        add("moving", "how legible views are while they move, and where their time goes",
+            addMoving);
         add("denoise",
             "how much error the denoiser takes from one and four passes, and how long it takes",
             addRows<measureDenoise>);

@@ -64,6 +64,12 @@ void RenderSession::setSequence(uint32_t sequence)
     _state->sequence = sequence;
 }
 
+void RenderSession::setCentred(bool centred)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    _state->centred = centred;
+}
+
 RenderProgress RenderSession::render(const StopRule& rule,
                                      const std::function<bool(const RenderProgress&)>& keepGoing,
                                      const DisplayTarget* display)

@@ -62,6 +62,10 @@ public:
     /// seed. Photons are the same for all sequences.
     void setSequence(uint32_t sequence);
 
+    /// Sets whether all passes of the images that are begun from now on look through the middles of
+    /// the pixels, where first hits are sampled, and not through other points: see Upsample.h.
+    void setCentred(bool centred);
+
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called
     /// after each pass on this thread, returns false. The tiles of a pass that cancel() cut short
     /// keep the pass, and the next render() does the rest of the tiles. Never throws: failures are

@@ -88,6 +88,7 @@ bool SessionState::begin()
     filmOptions = options;
     filmSeed =
         sequence == 0 ? options.seed : hash(options.seed, sequence + 1); // halves have 0 and 1
+    filmCentred = centred;
     placedLights = std::move(placed);
     strata = std::move(newStrata);
     progress = RenderProgress();
@@ -146,7 +147,7 @@ PassContext SessionState::contextOfPass(int pass) const
     const int paths = sharesPaths ? sharedPaths(pass) : pass;
     context.pathKey = passKey(filmSeed, paths);
     context.wantsDepth = pass == 0;
-    context.throughCentres = filmOptions.centredFirstPass && paths == 0;
+    context.throughCentres = filmCentred || (filmOptions.centredFirstPass && paths == 0);
     return context;
 }
 

@@ -56,12 +56,14 @@ struct SessionState
     uint32_t sequence = 0;
     bool keepsSurfaces = false;
     bool continuesView = false; // whether the next image keeps depths and surfaces of its view
+    bool centred = false;
 
     // These values describe what the film holds.
     std::shared_ptr<const TracedScene> filmScene;
     View filmView;
     RenderOptions filmOptions;
     uint32_t filmSeed = 0; // seed of the options and the sequence
+    bool filmCentred = false;
     CameraRays camera;
     std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;

@@ -99,6 +99,7 @@ public:
         session.setView(view);
         RenderOptions options = _options;
         options.centredFirstPass = divider > 1;
+        session.setCentred(divider > 1);
         session.setOptions(options);
         StopRule rule;
         rule.passes = passes;

@@ -157,6 +157,7 @@ std::vector<uint8_t> reference(const Cave& cave, int wall, double x, const WallP
     session.setView(view);
     RenderOptions options = cave.inputs.options;
     options.centredFirstPass = shown.divider > 1;
+    session.setCentred(shown.divider > 1);
     session.setOptions(options);
     StopRule rule;
     rule.passes = shown.passes;

@@ -291,3 +291,33 @@ TEST_CASE("tile order: each tile once, and any few of them all over the image", 
             CHECK(std::abs(static_cast<double>(quarter) - count / 32.0) <= 2.0);
     }
 }
+
+TEST_CASE("frame plan: full resolution may take the time that upsampling would", "[session]")
+{
+    FrameSituation frame;
+    frame.width = 1280;
+    frame.height = 720;
+    frame.seconds = 0.013;
+    frame.moved = true;
+    const int tiles = tilesOf(frame.width, frame.height);
+    for (const double fullSeconds : {0.0, 0.031})
+    {
+        FramePlanner planner;
+        planner.recordTiles(1, tiles, 0.016); // fits into 31 ms, but not into 13
+        frame.fullSeconds = fullSeconds;
+        CHECK((planner.plan(frame).divider == 1) == (fullSeconds > 0.0));
+    }
+
+    // A view that was reduced becomes whole as soon as that fits well for a while.
+    FramePlanner planner;
+    planner.recordTiles(1, tiles, 0.060);
+    REQUIRE(planner.plan(frame).divider > 1);
+    int frames = 0;
+    for (int divider = 2; divider > 1 && frames < 100; ++frames)
+    {
+        planner.recordTiles(divider, tiles / 4, 0.016 / 4);
+        divider = planner.plan(frame).divider;
+    }
+    CHECK(frames > HeldDivider::kPatience);
+    CHECK(frames < 4 * HeldDivider::kPatience);
+}

@@ -3,6 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/session/BudgetScreen.h"
 
+#include "osgRayTrace/session/upsample/Upsample.h"
+
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -32,8 +34,7 @@ TEST_CASE("frame budget: reduced pictures are upsampled where there is time for 
         Pixels expected;
         expected.resize(kWidth, kHeight);
         session.presentUpsampled(session.resolvedImage(), session.surfaceSamples(), kWidth, kHeight,
-                                 {{}, expected.rgba.data(), expected.depth.data()},
-                                 ImageStages::kMostTraced);
+                                 {{}, expected.rgba.data(), expected.depth.data()}, kAllTraced);
         REQUIRE(screen.shown.width == kWidth);
         CHECK((screen.shown.rgba == expected.rgba));
         CHECK((screen.shown.depth == expected.depth));

@@ -6,6 +6,7 @@
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/SeenColors.h"
 
 #include <algorithm>
 
@@ -24,19 +25,6 @@ float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
     return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
 }
 
-/// Returns linearFromSrgb within 0.002 for [0,1]. The approximation is cheaper, and it runs for
-/// each pixel of each frame.
-OSGRAYTRACE_INLINE float nearlyLinear(float encoded)
-{
-    return encoded * (encoded * (encoded * 0.305306f + 0.682171f) + 0.012523f);
-}
-
-Vec3 linearAlbedo(const Scene& scene, const Vec3& albedo)
-{
-    if (!scene.displayReferred) return albedo;
-    return Vec3(nearlyLinear(albedo.x), nearlyLinear(albedo.y), nearlyLinear(albedo.z));
-}
-
 Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
               int i)
 {
@@ -44,15 +32,27 @@ Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const Surface
                                             materialPoint(context, rays, surface, i));
 }
 
-/// Returns a sample with the members that the material of lane i decides on.
+/// Returns whether all points of a surface are without highlights, whatever their colours are.
+bool isMatt(const MaterialRecord& record)
+{
+    return record.fixedFunction && !record.material->hasBack &&
+           record.material->specular == Vec3(0.0f) &&
+           record.material->vertexColorUse != VertexColorUse::Specular;
+}
+
+/// Returns a sample with the members that the material of lane i decides on, but for the albedo.
 SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
                            const SurfaceLanes& surface, int i)
 {
     const MaterialRecord& record = context.traced->materials()[surface.material[i]];
+    SurfaceSample sample;
+    if (isMatt(record))
+    {
+        sample.lobe = record.material->blended ? 0.0f : kInfinity;
+        return sample;
+    }
     const Bsdf bsdf = seenBsdf(context, rays, surface, i);
     const bool smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f);
-    SurfaceSample sample;
-    sample.albedo = linearAlbedo(context.traced->scene(), bsdfAlbedo(bsdf));
     sample.lobe = lobeWidth(record, bsdf);
     sample.kind = smooth ? SurfaceKind::Smooth : SurfaceKind::Scattering;
     return sample;
@@ -88,6 +88,11 @@ bool isConstant(const MaterialRecord& record)
     return record.constant;
 }
 
+bool seesAlike(const MaterialRecord& record)
+{
+    return record.constant || isMatt(record);
+}
+
 void setLobes(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
               FloatLanes& lobes)
 {
@@ -121,11 +126,12 @@ void setObjects(const SurfaceLanes& surface, SurfaceBlock& seen)
 
 /// Traces the rays through the pixel centres and sets all of hits but the albedo.
 void traceCentres(const PassContext& context, int left, int bottom, int block, HitRule rule,
-                  FirstHitLanes& hits)
+                  FirstHitLanes& hits, LastTriangle* last = nullptr)
 {
     centreRayLanes(context.camera, left, bottom, block, hits.rays);
     context.traced->intersector().closestHits(hits.rays, kAllLanes, Coherence::Coherent, rule);
-    surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface);
+    surfacesOf(context.traced->surfaces(), hits.rays, kAllLanes, hits.surface, RayStart::Triangle,
+               last);
     if (context.traced->traits().normalMaps)
         applyNormalMaps(*context.traced, hits.rays, hits.surface);
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
@@ -136,15 +142,17 @@ void setSamples(const PassContext& context, const RayHitBlock& rays, const Surfa
 {
     const Scene& scene = context.traced->scene();
     constexpr SurfaceSample kNothing{Vec3(0.0f), kInfinity, Vec3(0.0f), 0u};
+    Vec3Lanes colors;
+    seenColors(context, rays, surface, colors);
     for (const int i : lanesIn(kAllLanes & ~surface.hits))
         samples[i] = kNothing;
     forEachMaterial(
-        context, surface, isConstant,
-        [&](int i) { return seenMaterial(context, rays, surface, i); },
+        context, surface, seesAlike, [&](int i) { return seenMaterial(context, rays, surface, i); },
         [&](int i, const SurfaceSample& seen)
         {
             SurfaceSample& sample = samples[i];
             sample = seen;
+            sample.albedo = laneOf(colors, i);
             sample.normal = laneOf(normal, i);
             sample.distance = static_cast<float>(rays.ray.tFar[i] * scene.unit);
             sample.object = surface.instance[i] + 1u;
@@ -155,19 +163,12 @@ void setSamples(const PassContext& context, const RayHitBlock& rays, const Surfa
 
 } // namespace
 
-void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits)
+void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits,
+                   LastTriangle* last)
 {
     const bool keepsBlended = context.options.integrator == IntegratorKind::Whitted;
-    traceCentres(context, left, bottom, block, {true, keepsBlended}, hits);
-    std::fill_n(hits.albedo.x.v, kLanes, 0.0f);
-    std::fill_n(hits.albedo.y.v, kLanes, 0.0f);
-    std::fill_n(hits.albedo.z.v, kLanes, 0.0f);
-    const Scene& scene = context.traced->scene();
-    forEachMaterial(
-        context, hits.surface, isConstant,
-        [&](int i)
-        { return linearAlbedo(scene, bsdfAlbedo(seenBsdf(context, hits.rays, hits.surface, i))); },
-        [&](int i, const Vec3& albedo) { setLane(hits.albedo, i, albedo); });
+    traceCentres(context, left, bottom, block, {true, keepsBlended}, hits, last);
+    seenColors(context, hits.rays, hits.surface, hits.albedo);
 }
 
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels])

@@ -21,7 +21,7 @@ struct FirstHit
 };
 
 /// The surfaces that the rays through the pixel centres of a block met first. Normals and albedos
-/// are 0 in lanes that met nothing. Albedos are linear, as in SurfaceSample.
+/// are 0 in lanes that met nothing. Albedos are those of seenColors, as in SurfaceSample.
 struct FirstHitLanes
 {
     RayHitBlock rays;
@@ -31,9 +31,9 @@ struct FirstHitLanes
 };
 
 /// Traces the pixel centres of a block of a tile. The rays meet blended surfaces as the
-/// integrator's own camera rays meet them: always, or by chance.
-void firstHitLanes(const PassContext& context, int left, int bottom, int block,
-                   FirstHitLanes& hits);
+/// integrator's own camera rays meet them: always, or by chance. For last see surfacesOf.
+void firstHitLanes(const PassContext& context, int left, int bottom, int block, FirstHitLanes& hits,
+                   LastTriangle* last = nullptr);
 
 /// Sets the first hits of a tile. The index of a hit is block * kLanes + lane.
 void firstHits(const PassContext& context, int left, int bottom, FirstHit (&hits)[kTilePixels]);

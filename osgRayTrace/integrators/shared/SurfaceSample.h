@@ -22,7 +22,7 @@ struct SurfaceSample
 {
     Vec3 normal;     ///< unit normal in world space, towards the viewer; 0: nothing is hit
     float distance;  ///< distance along the ray [length]; infinity: nothing is hit
-    Vec3 albedo;     ///< linear albedo
+    Vec3 albedo;     ///< linear albedo, with what the surface emits on top: see seenColors
     uint32_t object; ///< instance + 1; 0: nothing is hit
     /// The angle by which the viewer may move around the point before the point looks otherwise,
     /// roughly [radians]. Infinity: the point looks the same from everywhere; 0: a mirror, glass,

@@ -127,24 +127,26 @@ bool isSmooth(const UpsampleSource& source, const UpsampleCells& cells, std::siz
     return smooth != 0;
 }
 
-UpsampleCounts traceEdges(const UpsampleSource& source, const UpsampleCells& cells, int begin,
-                          int end, float* rgba, float* depth)
+/// Traces the blocks that are not smooth; null cells: all blocks.
+UpsampleCounts traceBlocks(const UpsampleSource& source, const UpsampleCells* cells, int begin,
+                           int end, float* rgba, float* depth)
 {
     const int wide = source.full.width;
     UpsampleCounts counts;
+    LastTriangle last;
     for (int bottom = begin; bottom < end; bottom += kBlockSize)
     {
         const int rows = std::min(kBlockSize, end - bottom);
         for (int left = 0; left < wide; left += kBlockSize)
         {
             const int columns = std::min(kBlockSize, wide - left);
-            if (isSmooth(source, cells, static_cast<std::size_t>(left),
-                         static_cast<std::size_t>(left + columns - 1),
-                         static_cast<std::size_t>(bottom),
-                         static_cast<std::size_t>(bottom + rows - 1)))
+            if (cells && isSmooth(source, *cells, static_cast<std::size_t>(left),
+                                  static_cast<std::size_t>(left + columns - 1),
+                                  static_cast<std::size_t>(bottom),
+                                  static_cast<std::size_t>(bottom + rows - 1)))
                 continue;
             UpsampledBlock block;
-            traceUpsampled(source, left, bottom, block);
+            traceUpsampled(source, left, bottom, last, block);
             for (int y = 0; y < rows; ++y)
                 for (int x = 0; x < columns; ++x)
                 {
@@ -175,10 +177,10 @@ UpsampleCounts forEachStrip(const ResolvedImage& image, const std::vector<Surfac
 {
     const UpsampleSource source{image, samples.data(), full, UpsampleAxis(image.width, full.width),
                                 UpsampleAxis(image.height, full.height)};
-    const UpsampleCells cells = upsampleCells(
-        samples,
-        {full.camera, full.traced->scene().unit, source.x, source.y, image.width, image.height},
-        mostTraced, workers);
+    const UpsampleView view{full.camera, full.traced->scene().unit, source.x, source.y, image.width,
+                            image.height};
+    const bool all = mostTraced == kAllTraced;
+    const UpsampleCells cells = upsampleCells(samples, view, all ? 1.0 : mostTraced, workers);
     const auto strips = static_cast<std::size_t>((full.height + kStripRows - 1) / kStripRows);
     std::vector<UpsampleCounts> counts(strips);
     workers.forEach(strips,
@@ -191,8 +193,9 @@ UpsampleCounts forEachStrip(const ResolvedImage& image, const std::vector<Surfac
                         auto&& buffer = place(first);
                         float* rgba = &buffer[0];
                         float* depths = depth ? depth + first : nullptr;
-                        interpolateRows(source, cells, begin, end, rgba, depths);
-                        counts[strip] = traceEdges(source, cells, begin, end, rgba, depths);
+                        if (!all) interpolateRows(source, cells, begin, end, rgba, depths);
+                        counts[strip] =
+                            traceBlocks(source, all ? nullptr : &cells, begin, end, rgba, depths);
                         finish(first, static_cast<std::size_t>((end - begin) * full.width), rgba);
                     });
     UpsampleCounts sum;

@@ -6,12 +6,19 @@
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/session/image/ResolvedImage.h"
 
+#include <limits>
+
 namespace osgRayTrace::engine
 {
 
+/// The share that has all pixels traced, those on smooth surfaces, too: nothing thin that lies
+/// between the pixels of the image is missed then.
+constexpr double kAllTraced = std::numeric_limits<double>::infinity();
+
 /// Sets result to the image at full size. image and samples belong to one view, with row 0 at the
 /// bottom and at least one pixel; any size is allowed, but sizes above that of full gain nothing.
-/// full is the context of the same view in its full size. The result has no errors.
+/// full is the context of the same view in its full size. All passes of the image looked through
+/// the middles of its pixels, see RenderSession::setCentred. The result has no errors.
 ///
 /// If the four pixels of the image around a pixel see one smooth surface of one colour, radiance
 /// and window depth are linear between them. Depths of a plane are exact, as they are linear in

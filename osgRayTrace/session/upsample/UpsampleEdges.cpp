@@ -138,8 +138,11 @@ LaneMask modulate(const LaneMeans& means, const Vec3Lanes& albedo, RgbaLanes& rg
         const float r = (albedo.x[i] + kLeastAlbedo) / (means.albedo.x[i] + kLeastAlbedo);
         const float g = (albedo.y[i] + kLeastAlbedo) / (means.albedo.y[i] + kLeastAlbedo);
         const float b = (albedo.z[i] + kLeastAlbedo) / (means.albedo.z[i] + kLeastAlbedo);
-        const uint32_t known = maskOf(means.weight[i] >= kLeastWeight) & maskOf(r < kLargestRatio) &
-                               maskOf(g < kLargestRatio) & maskOf(b < kLargestRatio);
+        const uint32_t known =
+            maskOf(means.weight[i] >= kLeastWeight) &
+            (maskOf(r < kLargestRatio) | maskOf(means.albedo.x[i] >= kFaintAlbedo)) &
+            (maskOf(g < kLargestRatio) | maskOf(means.albedo.y[i] >= kFaintAlbedo)) &
+            (maskOf(b < kLargestRatio) | maskOf(means.albedo.z[i] >= kFaintAlbedo));
         rgba.r[i] = means.rgba.r[i] * r;
         rgba.g[i] = means.rgba.g[i] * g;
         rgba.b[i] = means.rgba.b[i] * b;
@@ -172,11 +175,12 @@ LanePlaces placesOf(const UpsampleSource& source, int left, int bottom)
 
 } // namespace
 
-void traceUpsampled(const UpsampleSource& source, int left, int bottom, UpsampledBlock& block)
+void traceUpsampled(const UpsampleSource& source, int left, int bottom, LastTriangle& last,
+                    UpsampledBlock& block)
 {
     const PassContext& full = source.full;
     FirstHitLanes hits;
-    firstHitLanes(full, left, bottom, 0, hits);
+    firstHitLanes(full, left, bottom, 0, hits, &last);
     FloatLanes along;
     depthLanes(full.camera, left, bottom, 0, hits.surface, along, block.depth);
 

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/session/upsample/UpsampleSource.h"
 
 namespace osgRayTrace::engine
@@ -17,7 +18,8 @@ struct UpsampledBlock
 };
 
 /// Traces a block whose first pixel, (left, bottom), is inside of the image. Lanes outside of the
-/// image repeat its last pixels.
-void traceUpsampled(const UpsampleSource& source, int left, int bottom, UpsampledBlock& block);
+/// image repeat its last pixels. For last see surfacesOf.
+void traceUpsampled(const UpsampleSource& source, int left, int bottom, LastTriangle& last,
+                    UpsampledBlock& block);
 
 } // namespace osgRayTrace::engine

@@ -86,7 +86,7 @@ void lookFarther(const UpsampleSource& source, const LanePlaces& place, const La
     Vec3 ratio(1.0f);
     if (at.object[i] != 0)
         ratio = glm::min((albedo + kLeastAlbedo) / (meanAlbedo + kLeastAlbedo),
-                         Vec3(2.0f * kLargestRatio));
+                         Vec3(8.0f * kLargestRatio));
     rgba.r[i] = mean.x * ratio.x;
     rgba.g[i] = mean.y * ratio.y;
     rgba.b[i] = mean.z * ratio.z;

@@ -9,10 +9,11 @@ namespace osgRayTrace::engine
 {
 
 /// Albedos are increased by this before they are divided: see Upsample.h.
-constexpr float kLeastAlbedo = 0.001f;
+constexpr float kLeastAlbedo = 1e-4f;
 /// Light on a surface that reflects this many times more than its neighbours is not known from
-/// them.
+/// them if they reflect less than kFaintAlbedo: what they send may be no reflection of that light.
 constexpr float kLargestRatio = 4.0f;
+constexpr float kFaintAlbedo = 0.02f;
 /// Weight of a neighbour of another object in the same plane.
 constexpr float kOtherObject = 0.02f;
 /// Distance from the plane, in widths of a pixel of the image, from which a neighbour belongs to

@@ -110,7 +110,12 @@ int HeldDivider::choose(const PassSeconds& passSeconds, double seconds, bool mov
 HeldDivider::PassSeconds FramePlanner::passSeconds(const FrameSituation& frame) const
 {
     return [this, &frame](int divider)
-    { return _costs.passSeconds(frame.width, frame.height, divider); };
+    {
+        // A pass of full resolution may take the same share of the time that it has.
+        const bool hasOwn = divider == 1 && frame.fullSeconds > 0.0;
+        const double scale = hasOwn ? frame.seconds / frame.fullSeconds : 1.0;
+        return scale * _costs.passSeconds(frame.width, frame.height, divider);
+    };
 }
 
 /// Returns the number of passes that the seconds suffice for, or suffice to begin.

@@ -14,9 +14,11 @@ struct FrameSituation
 {
     int width = 0, height = 0; ///< size of the view [pixels]
     double seconds = 0.0;      ///< time that tracing may take
-    bool moved = false;        ///< whether the image is a new one: no part of the last is of use
-    bool degrade = true;       ///< whether the resolution of new images may be reduced
-    int tilesLeft = 0;         ///< tiles left of a begun full pass; 0: none. Unless moved
+    /// The same for an image of full resolution, which is not upsampled; 0: as long as seconds.
+    double fullSeconds = 0.0;
+    bool moved = false;  ///< whether the image is a new one: no part of the last is of use
+    bool degrade = true; ///< whether the resolution of new images may be reduced
+    int tilesLeft = 0;   ///< tiles left of a begun full pass; 0: none. Unless moved
 };
 
 struct FramePlan

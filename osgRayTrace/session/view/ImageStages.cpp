@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+#include "osgRayTrace/session/upsample/Upsample.h"
 
 #include <algorithm>
 
@@ -15,8 +16,13 @@ namespace
 {
 
 /// The guesses of the time that one thread takes to upsample a pixel, and of the time that a pixel
-/// in a cell at an edge takes on top, serve until the times are known [s].
-constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 400e-9;
+/// that is traced takes on top, serve until the times are known [s].
+constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 50e-9;
+/// Views that have all pixels traced go on so while there is time for this share of them, so that
+/// what they look like does not change from frame to frame.
+constexpr double kKeepsAll = 0.9;
+/// Tracing less of an image is not expected to take less than this share of the time.
+constexpr double kLeastOfSeen = 0.6;
 /// A smaller share of edges does not tell what edges cost.
 constexpr double kToldBy = 0.05;
 /// While nothing is upsampled, the known time of upsampling shrinks by this factor, so that
@@ -28,6 +34,7 @@ constexpr double kNewWeight = 0.25;
 /// Returns the share of the cells that upsampling with this limit takes for edges.
 double edgesWithin(const UpsampleCounts& counts, double mostTraced)
 {
+    if (mostTraced == kAllTraced) return 1.0;
     if (counts.around <= mostTraced) return counts.around;
     return counts.edges <= mostTraced ? counts.edges : 0.0;
 }
@@ -170,7 +177,8 @@ void ImageStages::presentUpsampled(const RenderSession& session, int width, int 
     const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;
     const ResolvedImage image = staged(session);
     const double begin = _now();
-    const double mostTraced = std::min(kMostTraced, affordable);
+    _tracesAll = affordable >= (_tracesAll ? kKeepsAll : 1.0);
+    const double mostTraced = _tracesAll ? kAllTraced : std::min(1.0, affordable);
     const UpsampleCounts counts = session.presentUpsampled(image, session.surfaceSamples(), width,
                                                            height, display, mostTraced);
     // Something else may have held up this frame: the known time grows by no more than a factor.
@@ -178,15 +186,19 @@ void ImageStages::presentUpsampled(const RenderSession& session, int width, int 
     const double traced = edgesWithin(counts, mostTraced);
     if (traced > kToldBy)
     {
-        const double edge = std::max(0.0, seen - plain) / traced;
+        // Pixels that see nothing do not tell what others cost.
+        const double least = _tracesAll ? kEdgeSeconds / _workers->threads() : 0.0;
+        const double edge = std::max(least, std::max(0.0, seen - plain) / traced);
         _edgeSeconds += edge > _edgeSeconds ? std::min(edge - _edgeSeconds, _edgeSeconds)
                                             : kNewWeight * (edge - _edgeSeconds);
     }
     else
         forgetEdges();
-    // There was no time for these edges; there may be time for those of fewer pixels.
-    const double missing = (edgesWithin(counts, kMostTraced) - traced) * _edgeSeconds;
-    _upsampleSeconds = std::min(seen + missing, 2.0 * _upsampleSeconds);
+    // Where there was no time for edges, there may be time for those of fewer pixels; what is
+    // traced beyond edges is traced at leisure.
+    const double wanted =
+        std::max(kLeastOfSeen * seen, seen + (counts.edges - traced) * _edgeSeconds);
+    _upsampleSeconds = std::min(wanted, 2.0 * _upsampleSeconds);
 }
 
 StageReport ImageStages::report(const RenderSession& session) const

@@ -79,17 +79,13 @@ public:
     std::vector<float> radiance(const RenderSession& session);
     void show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba, float* depth);
 
-    /// Writes the image at a larger size, which is that of the target. The larger image is made
-    /// along the edges of what is seen as far as the seconds go, by the times that earlier images
-    /// took.
+    /// Writes the image at a larger size, which is that of the target. As many pixels of the larger
+    /// image are traced as the seconds suffice for, by the times that earlier images took: all of
+    /// them, those at edges and beside them, those at edges, or none.
     void presentUpsampled(const RenderSession& session, int width, int height,
                           const DisplayTarget& display, double seconds);
 
-    /// Share of the pixels of a reduced image that may be traced to upsample it.
-    static constexpr double kMostTraced = 0.25;
-
-    /// Returns the time that upsampling with all edges that are worth it takes, by earlier times
-    /// [s].
+    /// Returns the time that upsampling along all edges takes, by earlier times [s].
     double upsampleSeconds(int width, int height) const
     {
         return _upsampleSeconds * width * height;
@@ -129,7 +125,8 @@ private:
     double _denoiseSeconds = 0.0;
 
     double _upsampleSeconds = 0.0; ///< time for a pixel
-    double _edgeSeconds = 0.0;     ///< time on top, for a pixel in a cell at an edge
+    double _edgeSeconds = 0.0;     ///< time on top, for a pixel that is traced
+    bool _tracesAll = false;       ///< whether all pixels of the last image were traced
 };
 
 } // namespace osgRayTrace::engine

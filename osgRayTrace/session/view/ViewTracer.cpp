@@ -140,7 +140,10 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     session.setScene(_scene);
     session.setView(inputs.view);
     RenderOptions options = _options;
-    options.centredFirstPass = divider > 1; // upsampled images have to show what first hits tell of
+    // Upsampled images have to show what first hits tell of: a mixture of surfaces in one pixel
+    // would have none's colour.
+    options.centredFirstPass = divider > 1;
+    session.setCentred(divider > 1);
     session.setOptions(options);
     rule.passes = _maxPasses;
     if (_interrupt)

@@ -31,9 +31,10 @@ struct FrameBudget
 {
     double seconds = 0.0; ///< seconds of a frame; 0: as long as the inputs' passes per frame take
     bool degrade = true;  ///< whether the resolution may be reduced while the view moves
-    /// Share of the seconds that upsampling may take. Reduced images are upsampled along edges, to
-    /// the largest size for which the share suffices; OpenGL enlarges the rest of the way.
-    double upsampleShare = 0.15;
+    /// Share of the seconds that upsampling may take. Reduced images are upsampled to the largest
+    /// size for which the share suffices to trace what is at edges; OpenGL enlarges the rest of the
+    /// way. What is seen first tells more of a scene than fine light does.
+    double upsampleShare = 0.65;
     /// If the agreement is not null, it says what this view traces, like all other views, and the
     /// seconds are for all of these views.
     std::shared_ptr<FrameAgreement> agreement = nullptr;
@@ -158,7 +159,7 @@ private:
     PresentCost presentCostOfFrame() const;
     FrameAgreement::Part joinFrame(const FrameBudget& budget, bool moved);
     PresentCost expectedPresentCost(bool moved) const;
-    void setDeadline(double budget, bool moved, PresentCost presentCost);
+    double deadlineOf(double budget, bool moved, PresentCost presentCost);
     double secondsLeft() const { return _begin + _deadline - _now(); }
     void traceFixed(int passes);
     void traceMoved(FrameSituation frame, double budget);

@@ -37,7 +37,7 @@ double pixelsOf(const View& view)
 /// change its sharpness in each frame.
 void ViewTracer::chooseUpsampling(double seconds)
 {
-    constexpr double kSpare = 0.7;
+    constexpr double kSpare = 0.9;
     const auto takes = [&](int divider)
     {
         return _reducedStages.upsampleSeconds(reducedSize(_view.width, divider),
@@ -71,8 +71,9 @@ ViewTracer::PresentCost ViewTracer::presentCostOfFrame() const
     return _displayState == DisplayState::Mixed ? PresentCost::FirstMixed : PresentCost::Whole;
 }
 
-/// Sets the deadline of tracing. The work after tracing is expected to take as long as it did last.
-void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
+/// Returns the deadline of tracing. The work after tracing is expected to take as long as it did
+/// last.
+double ViewTracer::deadlineOf(double budget, bool moved, PresentCost presentCost)
 {
     const bool upsampled = presentCost == PresentCost::Upsampled;
     const View shown = upsampled ? reducedView(_view, _upsampleDivider) : _view;
@@ -90,7 +91,7 @@ void ViewTracer::setDeadline(double budget, bool moved, PresentCost presentCost)
                _workers->threads();
     const int passes = _session->progress().passes;
     if (!moved && passes + 1 >= _nextEstimate) seconds -= _estimateSeconds;
-    _deadline = std::max(seconds, kLeastShare * budget);
+    return std::max(seconds, kLeastShare * budget);
 }
 
 void ViewTracer::traceFixed(int passes)
@@ -112,8 +113,10 @@ void ViewTracer::traceBudgeted(const FrameBudget& budget, bool moved)
     frame.height = _view.height;
     frame.moved = moved;
     frame.degrade = budget.degrade;
-    setDeadline(budget.seconds, moved, expectedPresentCost(moved));
+    _deadline = deadlineOf(budget.seconds, moved, expectedPresentCost(moved));
     frame.seconds = secondsLeft();
+    frame.fullSeconds =
+        frame.seconds + deadlineOf(budget.seconds, moved, PresentCost::Whole) - _deadline;
     if (moved && traceKept(frame, budget.seconds)) return;
     if (moved)
         traceMoved(frame, budget.seconds);
@@ -130,8 +133,8 @@ bool ViewTracer::traceKept(FrameSituation frame, double budget)
     if (!_stages.keepView(*_session, {_scene, _view, _options})) return false;
     const std::vector<uint8_t>& lacking = _stages.lackingTiles();
     const auto needed = static_cast<int>(std::count(lacking.begin(), lacking.end(), uint8_t(1)));
-    setDeadline(budget, true, PresentCost::Whole);
-    frame.seconds = secondsLeft();
+    _deadline = deadlineOf(budget, true, PresentCost::Whole);
+    frame.seconds = frame.fullSeconds = secondsLeft();
     if (frame.degrade && needed * _planner.tileSeconds(1) > kMostShare * frame.seconds)
     {
         _stages.forgetKept();
@@ -155,7 +158,7 @@ bool ViewTracer::beginsWhole(const FrameSituation& frame)
 {
     constexpr double kLongest = 12.0; // frames
     const double seconds = _planner.tileSeconds(1) * tilesOf(frame.width, frame.height);
-    if (_triedWhole || seconds > kLongest * frame.seconds ||
+    if (_triedWhole || seconds > kLongest * frame.fullSeconds ||
         _reducedStages.versionsKept() < kSettling)
         return false;
     _triedWhole = true;
@@ -169,13 +172,11 @@ void ViewTracer::traceMoved(FrameSituation frame, double budget)
     FramePlan plan = _planner.plan(frame);
     const bool whole =
         plan.divider > 1 && _displayState == DisplayState::Reduced && beginsWhole(frame);
-    if (whole)
-        plan = FramePlan();
-    else if (plan.divider > 1)
-    {
-        setDeadline(budget, true, presentCostOf(plan.divider));
-        frame.seconds = secondsLeft();
-    }
+    if (whole) plan = FramePlan();
+    const bool reduced = plan.divider > 1;
+    _deadline =
+        deadlineOf(budget, true, reduced ? presentCostOf(plan.divider) : PresentCost::Whole);
+    frame.seconds = secondsLeft();
     bool traced = traceImage(plan, frame, frame.degrade && !whole);
     if (!traced && _status.ok())
     {
