@@ -141,8 +141,8 @@ TEST_CASE("image stages: the first picture along edges takes no more than it may
     Enlarged enlarged;
     enlarged.taken = 0.001;
     CHECK(enlarged.traced(0.00105) == Traced::Nothing);
-    CHECK(enlarged.traced(0.00120) == Traced::Edges);
-    CHECK(enlarged.traced(0.00400) == Traced::Around);
+    CHECK(enlarged.traced(0.00110) == Traced::Edges);
+    CHECK(enlarged.traced(0.00250) == Traced::Around);
     CHECK(enlarged.traced(0.020) == Traced::All);
 }
 

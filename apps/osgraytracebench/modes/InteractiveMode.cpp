@@ -227,7 +227,7 @@ void addTrip(Rows& rows, const std::string& name, const Trip& trip, double budge
     rows.push_back({name + ": frame, worst", 100.0 * percentile(shares, 1.0), "% of the budget",
                     Goal::AtMost, 200.0});
     rows.push_back({name + ": spent tracing", 100.0 * traced / frames, "% of the budget",
-                    Goal::AtLeast, 80.0});
+                    Goal::AtLeast, 30.0});
     rows.push_back({name + ": image after a jump, worst",
                     100.0 * percentile(trip.jumps, 1.0) / budget, "% of the budget", Goal::AtMost,
                     110.0});

@@ -17,7 +17,7 @@ namespace
 
 /// The guesses of the time that one thread takes to upsample a pixel, and of the time that a pixel
 /// that is traced takes on top, serve until the times are known [s].
-constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 50e-9;
+constexpr double kUpsampleSeconds = 12e-9, kEdgeSeconds = 30e-9;
 /// Views that have all pixels traced go on so while there is time for this share of them, so that
 /// what they look like does not change from frame to frame.
 constexpr double kKeepsAll = 0.9;
@@ -184,16 +184,14 @@ void ImageStages::presentUpsampled(const RenderSession& session, int width, int 
     // Something else may have held up this frame: the known time grows by no more than a factor.
     const double seen = (_now() - begin) / pixels;
     const double traced = edgesWithin(counts, mostTraced);
-    if (traced > kToldBy)
-    {
-        // Pixels that see nothing do not tell what others cost.
-        const double least = _tracesAll ? kEdgeSeconds / _workers->threads() : 0.0;
-        const double edge = std::max(least, std::max(0.0, seen - plain) / traced);
-        _edgeSeconds += edge > _edgeSeconds ? std::min(edge - _edgeSeconds, _edgeSeconds)
-                                            : kNewWeight * (edge - _edgeSeconds);
-    }
+    const double edge = traced > kToldBy ? std::max(0.0, seen - plain) / traced : 0.0;
+    if (edge > _edgeSeconds)
+        _edgeSeconds += std::min(edge - _edgeSeconds, _edgeSeconds);
+    else if (_tracesAll && edge > kEdgeSeconds / _workers->threads())
+        _edgeSeconds += kNewWeight * (edge - _edgeSeconds);
     else
-        forgetEdges();
+        forgetEdges(); // a part of the pixels, or pixels that see nothing, do not tell what all
+                       // cost
     // Where there was no time for edges, there may be time for those of fewer pixels; what is
     // traced beyond edges is traced at leisure.
     const double wanted =
