@@ -254,7 +254,8 @@ TEST_CASE("cull content: a transform that asks the cull visitor for its eye", "[
         follower->addChild(raised(sky.get(), -1.5f));
         View view(follower.get());
         checkPicture(view);
-        CHECK(pixel(*view.viewer.frames(1), kSize / 2, kSize / 2).r() < 60.0f); // the wall is green
+        CHECK(pixel(*view.viewer.frames(1), kViewSize / 2, kViewSize / 2).r() <
+              60.0f); // the wall is green
         CHECK(view.count("rasterized.depth-range") == 1);
         CHECK(view.count("converted.culled") == 0);
     }

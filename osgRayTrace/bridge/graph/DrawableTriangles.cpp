@@ -111,7 +111,8 @@ Reader readerOf(const osg::Drawable& drawable)
 uint64_t valuesHash(const osg::Geometry& geometry)
 {
     uint64_t hash = bitsOf(geometry.getStateSet());
-    forEachBuffer(geometry, [&hash](const osg::BufferData* data, bool)
+    forEachBuffer(geometry, true,
+                  [&hash](const osg::BufferData* data, bool)
                   { hash = fold(hash, data ? contentsHash(*data) : 0); });
     for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry.getPrimitiveSetList())
         hash = fold(hash, set ? rangesHash(*set) : 0);
