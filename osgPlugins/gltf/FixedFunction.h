@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgPlugins/gltf/SurfaceReader.h"
+#include "osgPlugins/gltf/GltfSurface.h"
+#include "osgPlugins/gltf/MaterialValues.h"
 
 namespace osgRayTrace::gltf
 {

@@ -2,38 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgPlugins/gltf/GltfSurface.h"
 #include "osgPlugins/gltf/MaterialValues.h"
-
-#include <osg/StateSet>
 
 #include <map>
 #include <tuple>
 
 namespace osgRayTrace::gltf
 {
-
-/// What a primitive has, on which its state depends.
-struct SurfaceUse
-{
-    bool colors = false;  ///< colours of vertices
-    bool normals = false; ///< without normals it is not lit
-};
-
-/// A material as state, for the rasterizer and the ray tracer.
-struct Surface
-{
-    osg::ref_ptr<osg::StateSet> states;
-    osg::Vec4 color{1.0f, 1.0f, 1.0f, 1.0f}; ///< linear factor of what is not lit
-    bool lit = true;
-
-    /// The unit of a texture whose UV set is in the unit of another texture: the geometry puts the
-    /// set into this unit, too.
-    struct ExtraUnit
-    {
-        unsigned int unit, set;
-    };
-    std::optional<ExtraUnit> extraUnit;
-};
 
 class SurfaceReader
 {

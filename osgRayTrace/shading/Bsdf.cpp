@@ -167,16 +167,6 @@ float coatAverage(const Bsdf& bsdf)
     return first + (second - first) * bsdf.coatFraction;
 }
 
-std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
-{
-    if (eta == 1.0f) return -wo; // covers 1 - cosI^2 that rounds to 1 as well
-    const float cosI = glm::dot(wo, h);
-    const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
-    if (sin2T >= 1.0f) return std::nullopt;
-    const float cosT = std::sqrt(1.0f - sin2T);
-    return glm::normalize(-wo / eta + h * (cosI / eta - cosT));
-}
-
 std::optional<BsdfSample> sampleBsdf(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                      Transport transport)
 {

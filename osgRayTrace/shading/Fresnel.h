@@ -1,4 +1,4 @@
-// Fresnel.h - how much an interface reflects. Layer: shading.
+// Fresnel.h - how much an interface reflects, and where the rest goes. Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/Math.h"
 
 #include <cmath>
+#include <optional>
 
 namespace osgRayTrace::engine
 {
@@ -50,5 +51,9 @@ inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
 {
     return f0 + (Vec3(f90) - f0) * schlickShare(std::fmax(cosTheta, 0.0f));
 }
+
+/// Returns the direction behind an interface with normal h; nothing on total reflection. eta: index
+/// on the far side over that on the near side.
+std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta);
 
 } // namespace osgRayTrace::engine

@@ -3,7 +3,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/shading/Bsdf.h"
+#include "osgRayTrace/shading/BsdfTerms.h"
+
+#include <optional>
 
 namespace osgRayTrace::engine
 {

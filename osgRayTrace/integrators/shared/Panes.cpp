@@ -4,7 +4,6 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/NormalMaps.h"
-#include "osgRayTrace/integrators/shared/ShadowLanes.h"
 #include "osgRayTrace/sampling/Hash.h"
 
 #include <algorithm>

@@ -4,11 +4,10 @@
 
 #include "osgRayTrace/accel/HitRule.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/LightLanes.h"
 
 namespace osgRayTrace::engine
 {
-
-struct LightLanes;
 
 /// A ray with its throughput, for passPanes.
 struct PaneRays

@@ -5,10 +5,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
 #include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
-#include "osgRayTrace/bridge/common/ArrayReader.h"
-#include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
-#include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/film/ToneMap.h"
 
 #include <osgRayTrace/PhysicalMaterial>
@@ -178,26 +175,6 @@ bool setsCurrentColor(const GraphState& state)
 {
     const auto* source = state.attribute<osg::Material>(kMaterialSlot);
     return source && rgb(currentColorOf(*source)) != kDefaultColor;
-}
-
-SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius)
-{
-    SurfaceInputs inputs;
-    inputs.isOfSolids = hasSolidsAlone(geometry, pointRadius);
-    inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
-    inputs.hasSecondCoordinates = isReadable(geometry.getTexCoordArray(1));
-    const osg::Array* colors = geometry.getColorArray();
-    const osg::Array::Binding binding = bindingOf(colors);
-    inputs.hasVertexColors =
-        binding == osg::Array::BIND_PER_VERTEX || binding == osg::Array::BIND_PER_PRIMITIVE_SET;
-    if (binding != osg::Array::BIND_OVERALL) return inputs;
-    forEachRow(*colors, {1, nullptr, IntegerMeaning::Normalized},
-               [&inputs](std::size_t, const Vec4d& row)
-               {
-                   inputs.overallColor = Vec4(row);
-                   inputs.hasOverallColor = isFinite(Vec3(row)) && std::isfinite(row.w);
-               });
-    return inputs;
 }
 
 Material MaterialConverter::material(const GraphState& state, const SurfaceInputs& inputs,

@@ -2,28 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/appearance/materials/SurfaceInputs.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "osgRayTrace/scene/Scene.h"
 
-#include <osg/Geometry>
-
 namespace osgRayTrace::engine
 {
-
-/// The inputs are the parts of a geometry that decide on its material.
-struct SurfaceInputs
-{
-    bool hasVertexColors = false;       ///< colours that vary over the geometry
-    bool hasOverallColor = false;       ///< one colour for the whole geometry
-    Vec4 overallColor{1.0f};            ///< colour as OpenGL gets it, not decoded
-    bool hasTextureCoordinates = false; ///< coordinates of unit 0
-    bool hasSecondCoordinates = false;  ///< coordinates of unit 1
-    bool isOfSolids = false; ///< points and lines alone, traced as solids: lit in any state
-};
-
-/// pointRadius: that of RayTraceSettings.
-SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius);
 
 /// The rules hold for all materials of a scene.
 struct MaterialRules

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/SurfaceInputs.h"
+#include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/scene/Scene.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 

@@ -1,0 +1,36 @@
+// GltfSurface.h - what a primitive is drawn with. Layer: osgPlugins.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/StateSet>
+#include <osg/Vec4>
+
+#include <optional>
+
+namespace osgRayTrace::gltf
+{
+
+/// What a primitive has, on which its state depends.
+struct SurfaceUse
+{
+    bool colors = false;  ///< colours of vertices
+    bool normals = false; ///< without normals it is not lit
+};
+
+/// A material as state, for the rasterizer and the ray tracer.
+struct Surface
+{
+    osg::ref_ptr<osg::StateSet> states;
+    osg::Vec4 color{1.0f, 1.0f, 1.0f, 1.0f}; ///< linear factor of what is not lit
+    bool lit = true;
+
+    /// The unit of a texture whose UV set is in the unit of another texture: the geometry puts the
+    /// set into this unit, too.
+    struct ExtraUnit
+    {
+        unsigned int unit, set;
+    };
+    std::optional<ExtraUnit> extraUnit;
+};
+
+} // namespace osgRayTrace::gltf
