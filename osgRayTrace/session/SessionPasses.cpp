@@ -24,6 +24,30 @@ double secondsSince(Clock::time_point begin)
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// Lets tiles of a pass begin until the rule ends it.
+struct TileGate
+{
+    const StopRule& rule;
+    std::atomic<int> begun;
+    std::atomic<bool> over{false};
+
+    /// Returns whether one more tile may begin, and counts it.
+    bool begins()
+    {
+        if (over.load(std::memory_order_relaxed)) return false;
+        if (rule.shouldStop && rule.shouldStop(begun.load(std::memory_order_relaxed), 0.0))
+        {
+            over = true;
+            return false;
+        }
+        // No more tiles are begun than the rule allows, however many threads come here at once.
+        if (begun.fetch_add(1, std::memory_order_relaxed) < rule.newTiles) return true;
+        begun.fetch_sub(1, std::memory_order_relaxed);
+        over = true;
+        return false;
+    }
+};
+
 } // namespace
 
 /// Adds the next pass of a tile, in the film itself if that is possible.
@@ -112,8 +136,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
                           static_cast<std::size_t>(tilesAlong(film.height())),
                           static_cast<std::size_t>(rule.groupedTiles));
     std::atomic<std::size_t> next{0};
-    std::atomic<int> begun{progress.newTiles};
-    std::atomic<bool> over{false};
+    TileGate gate{rule, {progress.newTiles}};
     tileCounts.assign(tiles, TileCounts());
     dirtyTiles.resize(tiles);
     film.beginPass();
@@ -130,22 +153,8 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
             index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
         if (index == tiles) return;
         const int tile = static_cast<int>(index);
-        bool renders = film.tilePasses(tile) == pass &&
-                       !cancelled.load(std::memory_order_relaxed) &&
-                       !over.load(std::memory_order_relaxed);
-        if (renders && rule.shouldStop &&
-            rule.shouldStop(begun.load(std::memory_order_relaxed), 0.0))
-        {
-            renders = false;
-            over = true;
-        }
-        // No more tiles are begun than the rule allows, however many threads come here at once.
-        if (renders && begun.fetch_add(1, std::memory_order_relaxed) >= rule.newTiles)
-        {
-            begun.fetch_sub(1, std::memory_order_relaxed);
-            renders = false;
-            over = true;
-        }
+        const bool renders = film.tilePasses(tile) == pass &&
+                             !cancelled.load(std::memory_order_relaxed) && gate.begins();
         if (renders) tileCounts[index] = renderTile(context, integrator, tile);
         if (renders) dirtyTiles[index] = 1;
         if (display && (dirtyTiles[index] || !display->holdsImage)) resolveTile(*display, tile);
@@ -161,7 +170,7 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
         throw;
     }
     addTileCounts();
-    progress.newTiles = begun;
+    progress.newTiles = gate.begun;
     return film.passes() > pass;
 }
 

@@ -35,6 +35,14 @@ std::vector<Light> placedLights(const Scene& scene, const View& view)
     return lights;
 }
 
+/// Returns the distant lights that stand for the environment; empty if the options want none.
+std::vector<EnvironmentStratum> strataOf(const TracedScene& scene, const RenderOptions& options)
+{
+    const PlacedEnvironment* environment = scene.lights().shiningEnvironment();
+    if (!environment || options.environmentSampling != EnvironmentSampling::Structured) return {};
+    return environment->strata(options.environmentSamples);
+}
+
 /// Returns the rotation alone: the axes are of length 1, whatever scale the view has.
 Mat3 eyeFromEngine(const View& view)
 {
@@ -74,10 +82,7 @@ bool SessionState::begin()
     }
     std::vector<Light> placed = engine::placedLights(
         scene->scene(), view); // placed before the film changes, as placing may throw
-    std::vector<EnvironmentStratum> newStrata;
-    const PlacedEnvironment* environment = scene->lights().shiningEnvironment();
-    if (environment && options.environmentSampling == EnvironmentSampling::Structured)
-        newStrata = environment->strata(options.environmentSamples);
+    std::vector<EnvironmentStratum> newStrata = strataOf(*scene, options);
     const bool continues = continuesView && sameSize && view == filmView;
     if (!continues && film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
     resetFilm(continues);

@@ -31,6 +31,16 @@ template <class Item> uint32_t newIndex(std::vector<Item>& items, std::vector<ui
     return index;
 }
 
+/// Returns the place of a transform, which is within the place that the node has so far.
+WatchedPlace placeOf(const WatchedNode& transform, uint32_t index)
+{
+    WatchedPlace here{};
+    here.node = index;
+    here.hash = matrixHash(transform.kind, *transform.node);
+    here.outer = transform.place & kOutermost;
+    return here;
+}
+
 } // namespace
 
 /// Marks a place and all places around it as fixed, because their content depends on more than
@@ -136,12 +146,8 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     osg::Matrixd inner = sceneFromParent;
     if (isTransform(entry.kind))
     {
-        WatchedPlace here{};
-        here.node = index;
-        here.hash = matrixHash(entry.kind, node);
-        here.outer = entry.place & kOutermost;
-        entry.place = static_cast<uint32_t>(places.size());
-        places.push_back(here);
+        places.push_back(placeOf(entry, index));
+        entry.place = static_cast<uint32_t>(places.size() - 1);
         static_cast<osg::Transform&>(node).computeLocalToWorldMatrix(inner, nullptr);
     }
     if (isLight(entry.kind))

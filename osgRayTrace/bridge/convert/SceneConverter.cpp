@@ -60,6 +60,13 @@ double secondsSince(std::chrono::steady_clock::time_point begin)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Returns whether a scene made by the rules has the coordinates and the colours of the last one.
+bool isComparable(const Scene& last, const Vec3d& origin, const BuildRules& rules)
+{
+    return !last.instances.empty() && last.origin == origin && last.unit == rules.unit &&
+           last.displayReferred == !rules.linear;
+}
+
 void addToCount(ConversionCounts& counts, const char* what, int64_t more)
 {
     if (more != 0) counts[what] += static_cast<uint64_t>(more);
@@ -151,9 +158,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     applyUnit(rules.unit, graph);
     state.caches.textures.begin(rules.linear, rules.now);
     const Vec3d origin(input.origin.x(), input.origin.y(), input.origin.z());
-    rules.comparable = state.last && !state.last->instances.empty() &&
-                       state.last->origin == origin && state.last->unit == rules.unit &&
-                       state.last->displayReferred == !rules.linear;
+    rules.comparable = state.last && isComparable(*state.last, origin, rules);
     const auto scene = std::make_shared<Scene>();
     SceneBuilder builder(input, graph, rules, state.caches, state.convertedGraph, *scene, report);
     builder.build();

@@ -63,6 +63,22 @@ bool lightsArea(const PassContext& context)
     return context.traced->traits().areaLights || context.traced->traits().environment;
 }
 
+/// Sets what OpenGL's lights need of the fixed-function surface of lane i.
+void setFixedFunction(const WhittedTile& tile, ShadingBlock& block, int i)
+{
+    const PassContext& context = tile.context;
+    LaneMaterials& m = block.materials;
+    const MaterialPoint point = materialPoint(context, block.rays, block.surface, i);
+    m.points[i] = fixedFunctionPoint(context, block.rays, block.surface, i, point);
+    if (lightsArea(context))
+        m.bsdfs[i] = context.traced->materials().bsdf(block.surface.material[i], point);
+    m.fixedFunction |= 1u << i;
+    // OpenGL lights by the vertex normal alone, which may point away from the side of the face.
+    m.transmissive |= 1u << i;
+    if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
+        dropTerminatorOffset(block.surface, 1u << i);
+}
+
 void classify(WhittedTile& tile, ShadingBlock& block)
 {
     LaneMaterials& m = block.materials;
@@ -95,17 +111,8 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         m.emissive |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
         if (record.fixedFunction)
         {
-            if (!record.material->lit) continue; // all of its light is emission
-            const MaterialPoint point = materialPoint(tile.context, block.rays, block.surface, i);
-            m.points[i] = fixedFunctionPoint(tile.context, block.rays, block.surface, i, point);
-            if (lightsArea(tile.context)) m.bsdfs[i] = materials.bsdf(material, point);
-            m.fixedFunction |= 1u << i;
-            // OpenGL lights by the vertex normal alone, which may point away from the side of the
-            // face.
-            m.transmissive |= 1u << i;
-            if (!(glm::dot(m.points[i].normal, laneOf(block.surface.geometricNormal, i)) > 0.0f))
-                dropTerminatorOffset(block.surface, 1u << i);
-            continue;
+            if (record.material->lit) setFixedFunction(tile, block, i);
+            continue; // without light all that it sends is emission
         }
         if (record.plainDiffuse)
         {
