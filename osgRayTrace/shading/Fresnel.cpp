@@ -1,8 +1,6 @@
-// Fresnel.cpp - mean reflectances by quadrature, and refracted directions. Layer: shading.
+// Fresnel.cpp - the mean reflectance of an interface, by quadrature. Layer: shading.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/Fresnel.h"
-
-#include <algorithm>
 
 namespace osgRayTrace::engine
 {
@@ -20,16 +18,6 @@ float fresnelDielectricAverage(float eta)
         sum += fresnelDielectric(static_cast<float>(s), eta) * 2.0 * s;
     }
     return static_cast<float>(sum / kSteps);
-}
-
-std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
-{
-    if (eta == 1.0f) return -wo; // covers 1 - cosI^2 that rounds to 1 as well
-    const float cosI = glm::dot(wo, h);
-    const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
-    if (sin2T >= 1.0f) return std::nullopt;
-    const float cosT = std::sqrt(1.0f - sin2T);
-    return glm::normalize(-wo / eta + h * (cosI / eta - cosT));
 }
 
 } // namespace osgRayTrace::engine

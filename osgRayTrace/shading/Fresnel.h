@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -54,6 +55,14 @@ inline Vec3 fresnelSchlick(float cosTheta, Vec3 f0, float f90)
 
 /// Returns the direction behind an interface with normal h; nothing on total reflection. eta: index
 /// on the far side over that on the near side.
-std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta);
+inline std::optional<Vec3> refract(Vec3 wo, Vec3 h, float eta)
+{
+    if (eta == 1.0f) return -wo; // covers 1 - cosI^2 that rounds to 1 as well
+    const float cosI = glm::dot(wo, h);
+    const float sin2T = std::max(0.0f, 1.0f - cosI * cosI) / (eta * eta);
+    if (sin2T >= 1.0f) return std::nullopt;
+    const float cosT = std::sqrt(1.0f - sin2T);
+    return glm::normalize(-wo / eta + h * (cosI / eta - cosT));
+}
 
 } // namespace osgRayTrace::engine
