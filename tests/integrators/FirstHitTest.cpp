@@ -99,6 +99,33 @@ float lobeOf(const Material& material)
 
 } // namespace
 
+TEST_CASE("first hits: a pane is what is seen first, by paths and by Whitted's rays",
+          "[integrators]")
+{
+    SceneBuilder builder;
+    builder.add(quadAt(1.0f), withDetail(glass(1.5f), [](auto& d) { d.thinWalled = true; }));
+    builder.add(quadAt(0.0f), lambert(Vec3(0.5f)));
+    RenderSession path(std::make_shared<Workers>(1)), whitted(std::make_shared<Workers>(1));
+    renderCentres(path, builder, IntegratorKind::Path);
+    renderCentres(whitted, builder, IntegratorKind::Whitted);
+    const SurfaceMap &seen = path.surfaces(), &expected = whitted.surfaces();
+    for (std::size_t i = 0; i < kPixels * kPixels; ++i)
+    {
+        CAPTURE(i);
+        REQUIRE(expected.object[i] == 1);
+        REQUIRE(seen.object[i] == 1);
+        REQUIRE(seen.along[i] == expected.along[i]);
+        REQUIRE(seen.lobe[i] == 0.0f);
+        const SurfaceSample &sample = path.surfaceSamples()[i],
+                            &other = whitted.surfaceSamples()[i];
+        REQUIRE(sample.object == 1);
+        REQUIRE(sample.distance == other.distance);
+        REQUIRE(sample.albedo == other.albedo);
+        REQUIRE(sample.kind == SurfaceKind::Smooth);
+    }
+    CHECK(path.resolvedImage().depth == whitted.resolvedImage().depth);
+}
+
 TEST_CASE("first hits: the lobe of a surface is the narrowest of its layers", "[integrators]")
 {
     CHECK(lobeOf(lambert(Vec3(0.5f))) == kInfinity);
