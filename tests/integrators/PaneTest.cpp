@@ -1,4 +1,4 @@
-// PaneTest.cpp - paths that go on behind panes. Layer: tests.
+// PaneTest.cpp - paths and photons that go on behind panes. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/integrators/Measure.h"
 
@@ -55,4 +55,19 @@ TEST_CASE("panes: paths that pixels share keep the tint of the panes that they p
         CHECK(std::abs(own.mean() - reused.mean()) < 4.0 * error);
         CHECK(error < 0.02 * own.mean());
     }
+}
+
+TEST_CASE("panes: only the photons that pass them are traced again", "[integrators]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), lambert(Vec3(0.0f)));
+    builder.add(quadMesh({-9, -9, 1}, {18, 0, 0}, {0, 18, 0}), pane(Vec3(0.5f)));
+    builder.addQuadLight({-0.1f, 0.1f, 1.2f}, {0.2f, 0, 0}, {0, -0.2f, 0}, Vec3(5.0f));
+    RenderOptions options = optionsOf(IntegratorKind::Ppm);
+    options.photons = 20000;
+    const View view = patchView({0, 0, 0.5}, {0, 0, 1}, 1.0, 8);
+    const RenderProgress progress = render(builder.build(), view, options, 1).progress;
+    const double rays = double(progress.rays.photon) / options.photons;
+    CHECK(rays > 1.3); // a photon passes with a probability of 0.46 at most
+    CHECK(rays < 1.7); // and few of the others are mirrored
 }
