@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/ChunkTracer.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/sampling/Warp.h"
@@ -241,28 +242,48 @@ LaneMask ChunkTracer::passPanes(PhotonPathBlock& block, const SurfaceLanes& surf
     return passed;
 }
 
+/// Finds the surfaces that rays meet next.
+void ChunkTracer::meetSurfaces(RayHitBlock& rays, LaneMask lanes, SurfaceLanes& surface)
+{
+    const TracedScene& traced = _inputs.traced;
+    traced.intersector().closestHits(rays, lanes, Coherence::Incoherent, kPhotonRays);
+    _chunk.rays += static_cast<uint64_t>(countLanes(lanes));
+    surfacesOf(traced.surfaces(), rays, lanes, surface);
+    if (traced.traits().normalMaps) applyNormalMaps(traced, rays, surface);
+}
+
+/// Finds the surfaces behind those that photons have passed.
+void ChunkTracer::meetBehind(LaneMask passed, SurfaceLanes& surface)
+{
+    RayBlock& ray = _rays.ray;
+    for (const int i : lanesIn(passed))
+    {
+        ray.tNear[i] = std::nextafter(ray.tFar[i], kInfinity);
+        ray.tFar[i] = kInfinity;
+    }
+    RayHitBlock behind;
+    behind.ray = ray;
+    SurfaceLanes next;
+    meetSurfaces(behind, passed, next);
+    mergeHits(behind, next, passed, _rays, surface);
+}
+
 /// Finds the surfaces that the photons of a block meet and do not pass.
 void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce,
                                SurfaceLanes& surface)
 {
     loadRays(block, _rays);
     _oneSided = _seen = 0;
+    meetSurfaces(_rays, active, surface);
+    const bool panes = _inputs.traced.traits().panes;
+    const bool facesPass = _inputs.culls || (bounce == 0 && _inputs.shadowless);
+    if (!facesPass && !panes) return;
     for (LaneMask lanes = active;;)
     {
-        _inputs.traced.intersector().closestHits(_rays, active, Coherence::Incoherent, kPhotonRays);
-        _chunk.rays += static_cast<uint64_t>(countLanes(active));
-        surfacesOf(_inputs.traced.surfaces(), _rays, active, surface);
-        const SceneTraits& traits = _inputs.traced.traits();
-        if (traits.normalMaps) applyNormalMaps(_inputs.traced, _rays, surface);
-        const bool facesPass = _inputs.culls || (bounce == 0 && _inputs.shadowless);
-        if (!facesPass && !traits.panes) return;
         const LaneMask passed = facesPass ? passFaces(block, surface, lanes, bounce) : 0;
-        lanes = passed | (traits.panes ? passPanes(block, surface, lanes & ~passed, bounce) : 0);
+        lanes = passed | (panes ? passPanes(block, surface, lanes & ~passed, bounce) : 0);
         if (!lanes) break;
-        for (const int i : lanesIn(lanes))
-            _rays.ray.tNear[i] = std::nextafter(_rays.ray.tFar[i], kInfinity);
-        std::fill_n(_rays.ray.tFar.v, kLanes,
-                    kInfinity); // the other lanes meet the same surface again
+        meetBehind(lanes, surface);
     }
     std::fill_n(_rays.ray.tNear.v, kLanes, 0.0f);
 }

@@ -74,6 +74,8 @@ private:
 
     void emitBlock(uint32_t first, uint32_t count);
     void follow(PhotonPathBlock block, LaneMask active, int bounce);
+    void meetSurfaces(RayHitBlock& rays, LaneMask lanes, SurfaceLanes& surface);
+    void meetBehind(LaneMask passed, SurfaceLanes& surface);
     void findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
     LaneMask passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                        int bounce);

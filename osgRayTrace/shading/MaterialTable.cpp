@@ -123,10 +123,12 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
             !isTextured(material) && !material.hasBack &&
             (!record.fixedFunction || material.vertexColorUse == VertexColorUse::None) &&
             !(material.detail && material.detail->vertexColors);
-        record.sameLobes = material.metallicRoughnessTexture == kInvalid &&
-                           material.transmissionTexture == kInvalid &&
+        const bool texelsDecide = record.fixedFunction || material.transmission > 0.0f;
+        record.sameLobes = textureOf(material, kMetallicRoughnessRole) == kInvalid &&
+                           textureOf(material, kClearcoatRole) == kInvalid &&
+                           textureOf(material, kClearcoatRoughnessRole) == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
-                           !(record.fixedFunction && isTextured(material));
+                           !(texelsDecide && isTextured(material)); // a texel may be black
         if (!isInvisible(material)) // invisible: not traced, so that no photons are guided to it
         {
             MaterialPoint point;

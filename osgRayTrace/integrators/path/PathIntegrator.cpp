@@ -68,17 +68,10 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                          bounce.transmissive); // refraction needs the facet's own place
 }
 
-/// Returns whether materials decide on where rays go on, on shading normals or on light on its way.
-bool needsMaterialsAtHits(const SceneTraits& traits)
-{
-    return traits.normalMaps || traits.panes || traits.attenuation;
-}
-
-/// Applies what materials do to the surfaces that rays have met, before they are shaded.
-void meetMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
+/// Applies what materials do to light on its way, before surfaces are shaded.
+void passMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
 {
     const TracedScene& traced = *tile.context.traced;
-    if (traced.traits().normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
     const HitRule rule = number == 0 ? kCameraRays : HitRule();
     if (traced.traits().panes)
         passPanes(tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
@@ -104,16 +97,16 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     bounce.bsdfs = tile.bsdfs;
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
                rayStart(tile.context.options));
-    if (needsMaterialsAtHits(traced.traits())) meetMaterials(tile, block, bounce, number);
-    addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
-    addEmission(tile, block, bounce.surface, use);
-    if (number == 0)
-    {
+    const SceneTraits& traits = traced.traits();
+    if (traits.normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
+    if (number == 0) // a pane is what is seen first, also by rays that go on behind it
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
                         tile.result.firstHits);
-        for (const int i : lanesIn(bounce.surface.hits))
-            tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
-    }
+    if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, number);
+    addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
+    addEmission(tile, block, bounce.surface, use);
+    for (const int i : lanesIn(number == 0 ? bounce.surface.hits : 0))
+        tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     if (last)
     {
         block.active = 0;

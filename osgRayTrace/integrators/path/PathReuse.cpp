@@ -13,7 +13,8 @@
 // The sum holds because f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. A
 // connection costs one shadow ray for each pair of pixels, and a path costs some ten times as much.
 // The choice of reused y depends on y alone, so that all p_k belong to the same samples; paths with
-// any other y are for their own pixel.
+// any other y are for their own pixel. Scenes with panes share no paths: f_i would have the
+// transmittance of the panes on the way, and V would be that of each connection.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -161,7 +162,8 @@ void connectGroup(Tile& tile, int group)
 void beginReuse(Tile& tile, PhotonUse use)
 {
     const GatheredPhotons* gathered = tile.result.photons.gathered;
-    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
+    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate) &&
+                        !tile.context.traced->traits().panes;
     const PassKey& key = tile.context.key;
     const uint32_t seed =
         pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));

@@ -16,13 +16,16 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Returns the width of the lobe [radians]: GGX of width alpha falls to a quarter at tan(angle) =
-/// alpha [Walter07, eq. 33].
+/// Returns the width of the narrowest lobe [radians]: GGX of width alpha falls to a quarter at
+/// tan(angle) = alpha [Walter07, eq. 33]. What is seen through a surface moves otherwise, also
+/// through a rough one.
 float lobeWidth(const MaterialRecord& record, const Bsdf& bsdf)
 {
-    if (record.material->blended) return 0.0f; // the surface behind moves otherwise
+    if (record.material->blended || bsdf.transmits()) return 0.0f;
     if (bsdf.isDiffuse()) return kInfinity;
-    return bsdf.isSmooth() ? 0.0f : bsdf.alpha;
+    const bool coated = bsdf.clearcoat > 0.0f && !bsdf.inside;
+    const float alpha = coated ? std::min(bsdf.alpha, bsdf.clearcoatAlpha) : bsdf.alpha;
+    return alpha < kSmoothAlpha ? 0.0f : alpha;
 }
 
 Bsdf seenBsdf(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,

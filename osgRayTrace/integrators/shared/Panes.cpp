@@ -3,6 +3,7 @@
 #include "osgRayTrace/integrators/shared/Panes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/sampling/Hash.h"
 
@@ -51,6 +52,20 @@ void goOnBehind(RayBlock& ray, int i, float tFar)
     ray.tFar[i] = tFar;
 }
 
+/// Sets the surfaces behind the panes that rays have passed.
+void meetBehind(const PassContext& context, const PaneRays& lanes, LaneMask passed)
+{
+    for (const int i : lanesIn(passed))
+        goOnBehind(lanes.rays.ray, i, kInfinity);
+    RayHitBlock behind;
+    behind.ray = lanes.rays.ray;
+    context.traced->intersector().closestHits(behind, passed, Coherence::Incoherent, lanes.rule);
+    SurfaceLanes surface;
+    surfacesOf(context.traced->surfaces(), behind, passed, surface, rayStart(context.options));
+    if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, behind, surface);
+    mergeHits(behind, surface, passed, lanes.rays, lanes.surface);
+}
+
 } // namespace
 
 void passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts)
@@ -70,17 +85,8 @@ void passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& co
             passed |= static_cast<LaneMask>(goesOn) << i;
         }
         if (!passed) return;
-        for (const int i : lanesIn(passed))
-            goOnBehind(lanes.rays.ray, i, kInfinity);
-        for (const int i : lanesIn(lanes.active & ~passed))
-            lanes.rays.ray.tFar[i] = kInfinity; // they meet the same surfaces again
-        context.traced->intersector().closestHits(lanes.rays, lanes.active, Coherence::Incoherent,
-                                                  lanes.rule);
+        meetBehind(context, lanes, passed);
         counts.secondaryRays += static_cast<uint64_t>(countLanes(passed));
-        surfacesOf(context.traced->surfaces(), lanes.rays, lanes.active, lanes.surface,
-                   rayStart(context.options));
-        if (context.traced->traits().normalMaps)
-            applyNormalMaps(*context.traced, lanes.rays, lanes.surface);
         open = passed;
     }
 }
