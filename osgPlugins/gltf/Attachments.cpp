@@ -80,7 +80,7 @@ osg::ref_ptr<osg::Camera> readCamera(const Document& document, const JsonPlace& 
     return camera;
 }
 
-osg::ref_ptr<osg::LightSource> readLight(const Document& document, const JsonPlace& use, int number)
+osg::ref_ptr<osg::LightSource> readLight(Document& document, const JsonPlace& use, int number)
 {
     const JsonPlace lights =
         document.root().at("extensions").at("KHR_lights_punctual").at("lights");
@@ -105,6 +105,7 @@ osg::ref_ptr<osg::LightSource> readLight(const Document& document, const JsonPla
         light.setPosition(osg::Vec4(0.0f, 0.0f, 1.0f, 0.0f));
         return source;
     }
+    if (place.find("range")) document.note("not read: ranges of lights, which shine beyond them");
     light.setPosition(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
     light.setDirection(osg::Vec3(0.0f, 0.0f, -1.0f));
     light.setConstantAttenuation(0.0f);

@@ -16,8 +16,7 @@ osg::ref_ptr<osg::Camera> readCamera(const Document& document, const JsonPlace& 
 
 /// Returns a light of KHR_lights_punctual with the number of an OpenGL light. The light's values
 /// are such that a traced white surface has the radiance in cd/m^2 that the file's lux and candela
-/// give it: an osg::Light of 1 is an irradiance of pi.
-osg::ref_ptr<osg::LightSource> readLight(const Document& document, const JsonPlace& use,
-                                         int number);
+/// give it: an osg::Light of 1 is an irradiance of pi. A range is noted, and light goes on beyond.
+osg::ref_ptr<osg::LightSource> readLight(Document& document, const JsonPlace& use, int number);
 
 } // namespace osgRayTrace::gltf

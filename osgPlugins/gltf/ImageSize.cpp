@@ -26,6 +26,12 @@ bool isFrame(std::uint64_t marker)
     return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
 }
 
+/// Returns whether no length follows a JPEG marker: TEM, and RST0 to RST7.
+bool isBare(std::uint64_t marker)
+{
+    return marker == 0x01 || (marker >= 0xd0 && marker <= 0xd7);
+}
+
 std::uint64_t jpegPixels(const std::string& bytes)
 {
     std::uint64_t most = 0;
@@ -36,7 +42,9 @@ std::uint64_t jpegPixels(const std::string& bytes)
         if (isFrame(marker))
             most = std::max(most, numberAt(bytes, offset + 5, 2) * numberAt(bytes, offset + 7, 2));
         if (marker == 0xda) break; // the data of the scan follow
-        offset += marker == 0xff ? 1 : 2 + static_cast<std::size_t>(numberAt(bytes, offset + 2, 2));
+        offset += marker == 0xff ? 1 : 2;
+        if (marker != 0xff && !isBare(marker))
+            offset += static_cast<std::size_t>(numberAt(bytes, offset, 2));
     }
     return most;
 }

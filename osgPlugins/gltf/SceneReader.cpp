@@ -56,11 +56,9 @@ std::vector<std::size_t> SceneReader::bonesFirst(std::vector<std::size_t> nodes)
 osg::ref_ptr<osgAnimation::Bone>
 SceneReader::bone(std::size_t index, const NodeTransform& transform, const Above& above)
 {
-    // osgAnimation finds bones by their names.
-    std::string name = _document->element("nodes", index).textOr("name", "");
-    if (name.empty() || _boneNames.count(name) > 0) name += "#" + std::to_string(index);
-    _boneNames.insert(name);
-    const osg::ref_ptr<osgAnimation::Bone> made = new osgAnimation::Bone(name);
+    const std::string name = _document->element("nodes", index).textOr("name", "");
+    const osg::ref_ptr<osgAnimation::Bone> made =
+        new osgAnimation::Bone(_skins.newName(name, index));
     const osg::Matrix local = transform.toMatrix();
     made->setMatrix(local);
     made->setMatrixInSkeletonSpace(local * above.bone);

@@ -9,8 +9,6 @@
 #include <osg/MatrixTransform>
 #include <osgAnimation/Skeleton>
 
-#include <set>
-
 namespace osgRayTrace::gltf
 {
 
@@ -54,7 +52,6 @@ private:
     AnimationReader _animations;
     MeshReader _meshes;
     std::map<std::size_t, osgAnimation::Bone*> _bones;
-    std::set<std::string> _boneNames;
     std::vector<SkinnedMesh> _skinnedMeshes;
     std::vector<osg::ref_ptr<osg::LightSource>> _lights;
 };

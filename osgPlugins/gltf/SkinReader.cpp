@@ -32,6 +32,13 @@ SkinReader::SkinReader(Document& document, const NodeTree& tree)
     }
 }
 
+std::string SkinReader::newName(std::string wanted, std::size_t number)
+{
+    while (wanted.empty() || !_names.insert(wanted).second)
+        wanted += "#" + std::to_string(number);
+    return wanted;
+}
+
 /// Returns the bone, among the joint and those that stay with it, whose vertices are bound by a
 /// matrix. osgAnimation keeps that matrix in the bone.
 osgAnimation::Bone* SkinReader::boundBone(osgAnimation::Bone& joint, const osg::Matrix& inverseBind,
@@ -45,7 +52,7 @@ osgAnimation::Bone* SkinReader::boundBone(osgAnimation::Bone& joint, const osg::
     osg::ref_ptr<osgAnimation::Bone> bone = &joint;
     if (!bound.empty())
     {
-        bone = new osgAnimation::Bone(joint.getName() + "#" + std::to_string(bound.size()));
+        bone = new osgAnimation::Bone(newName(joint.getName(), bound.size()));
         bone->setUpdateCallback(new osgAnimation::UpdateBone(bone->getName()));
         bone->setMatrixInSkeletonSpace(joint.getMatrixInSkeletonSpace());
         joint.insertChild(0, bone); // osgAnimation wants bones before other children

@@ -9,6 +9,7 @@
 #include <osgAnimation/RigGeometry>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ public:
     bool isBone(std::size_t node) const { return _isBone[node]; }
     bool hasBones() const { return _hasBones; }
 
+    /// Returns a name that no other bone has, as osgAnimation finds bones by their names. The
+    /// number is appended until that is so.
+    std::string newName(std::string wanted, std::size_t number);
+
     /// Returns a skin. bones: those that the nodes of the scene have become. A joint that another
     /// skin has bound in another place gets a further bone, which stays with it.
     const Skin& read(std::size_t skin, const std::map<std::size_t, osgAnimation::Bone*>& bones,
@@ -42,6 +47,7 @@ private:
     Document* _document;
     std::vector<bool> _isBone;
     bool _hasBones = false;
+    std::set<std::string> _names; ///< of all bones
     std::map<std::size_t, Skin> _skins;
     std::map<osgAnimation::Bone*, std::vector<osgAnimation::Bone*>> _bound; ///< those in use
 };

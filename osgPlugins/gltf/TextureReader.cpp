@@ -5,13 +5,14 @@
 #include "osgPlugins/gltf/GltfError.h"
 #include "osgPlugins/gltf/ImageSize.h"
 #include "osgPlugins/gltf/Uri.h"
-#include "osgRayTrace/base/TextFile.h"
 
-#include <osgDB/ReadFile>
+#include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 
 namespace osgRayTrace::gltf
@@ -63,6 +64,20 @@ osg::ref_ptr<osg::Image> namedImage(const std::string& file)
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->setFileName(file);
     return image;
+}
+
+/// Reads an image file. osgDB reads it, so that its caches hold, unless the name is that of another
+/// format, or means another file to osgDB, which looks into the folders of the options first.
+osgDB::ReaderWriter::ReadResult readFile(const std::string& path, osgDB::ReaderWriter& plugin,
+                                         const osgDB::Options* options)
+{
+    const bool sameToOsg = plugin.acceptsExtension(osgDB::getLowerCaseFileExtension(path)) &&
+                           osgDB::findDataFile(path, options) == path;
+    if (sameToOsg) return osgDB::Registry::instance()->readImage(path, options);
+    std::ifstream stream(path, std::ios::binary);
+    osgDB::ReaderWriter::ReadResult read = plugin.readImage(stream, options);
+    if (read.validImage()) read.getImage()->setFileName(path);
+    return read;
 }
 
 } // namespace
@@ -142,29 +157,51 @@ bool TextureReader::mayDecode(const std::string& begin, const JsonPlace& place)
 {
     const std::uint64_t pixels = pixelsOf(begin);
     const bool good = pixels <= kMostPixels && pixels <= kMostPixelsOfAll - _pixels;
-    if (good)
+    if (pixels == 0)
+        _document->note(place.path() + ": does not say its size in its first MiB");
+    else if (good)
         _pixels += pixels;
     else
         _document->note(place.path() + ": has more than 2^26 pixels, or all images more than 2^29");
-    return good;
+    return good && pixels > 0;
 }
 
-/// Reads an image file by the caller's options, so that osgDB's caches hold.
+/// Returns the plugin for an image of these first bytes; null, with a note, if it is not to be
+/// read.
+osgDB::ReaderWriter* TextureReader::pluginFor(const std::string& begin, const JsonPlace& place)
+{
+    const std::string format = formatOf(begin);
+    osgDB::ReaderWriter* plugin =
+        format.empty() ? nullptr : osgDB::Registry::instance()->getReaderWriterForExtension(format);
+    if (!plugin) _document->note(place.path() + ": is of a format that is not read");
+    return plugin && mayDecode(begin, place) ? plugin : nullptr;
+}
+
+/// Returns the first bytes of an image file; nothing, with a note, if it cannot be read.
+std::optional<std::string> TextureReader::beginOf(const std::string& path, const JsonPlace& uri)
+{
+    try
+    {
+        FileBytes file(path);
+        std::string begin(static_cast<std::size_t>(std::min(file.size(), kHeaderBytes)), '\0');
+        file.read(0, begin.size(), begin.data());
+        return begin;
+    }
+    catch (const GltfError& error)
+    {
+        _document->note(uri.path() + ": " + error.what());
+        return std::nullopt;
+    }
+}
+
+/// Reads an image file by the caller's options.
 osg::ref_ptr<osg::Image> TextureReader::imageBeside(const JsonPlace& uri)
 {
     const std::string path = _document->pathBeside(uri);
-    const std::string irregularity = engine::irregularityOf(path);
-    if (!irregularity.empty())
-    {
-        _document->note(uri.path() + ": '" + path + "' " + irregularity);
-        return namedImage(path);
-    }
-    FileBytes file(path);
-    std::string begin(static_cast<std::size_t>(std::min(file.size(), kHeaderBytes)), '\0');
-    file.read(0, begin.size(), begin.data());
-    if (!mayDecode(begin, uri)) return namedImage(path);
-    osgDB::ReaderWriter::ReadResult read =
-        osgDB::Registry::instance()->readImage(path, _document->options().caller);
+    const std::optional<std::string> begin = beginOf(path, uri);
+    osgDB::ReaderWriter* plugin = begin ? pluginFor(*begin, uri) : nullptr;
+    if (!plugin) return namedImage(path);
+    osgDB::ReaderWriter::ReadResult read = readFile(path, *plugin, _document->options().caller);
     if (read.validImage()) return read.getImage();
     _document->note(uri.path() + ": '" + path + "' cannot be read as an image");
     return namedImage(path);
@@ -184,16 +221,13 @@ osg::ref_ptr<osg::Image> TextureReader::embeddedImage(const JsonPlace& place)
         bytes.resize(static_cast<std::size_t>(range.size));
         range.read(0, bytes.size(), bytes.data());
     }
-    const std::string format = formatOf(bytes);
-    osgDB::ReaderWriter* reader =
-        format.empty() ? nullptr : osgDB::Registry::instance()->getReaderWriterForExtension(format);
-    if (!reader) _document->note(place.path() + ": is of a format that is not read");
-    if (!reader || !mayDecode(bytes, place)) return nullptr;
+    osgDB::ReaderWriter* plugin = pluginFor(bytes, place);
+    if (!plugin) return nullptr;
     std::istringstream stream(bytes, std::ios::binary);
-    osgDB::ReaderWriter::ReadResult read = reader->readImage(stream, _document->options().caller);
+    osgDB::ReaderWriter::ReadResult read = plugin->readImage(stream, _document->options().caller);
     if (!read.validImage())
     {
-        _document->note(place.path() + ": its " + format + " image cannot be read");
+        _document->note(place.path() + ": its image cannot be read");
         return nullptr;
     }
     const osg::ref_ptr<osg::Image> image = read.getImage();

@@ -7,6 +7,7 @@
 #include <osg/Image>
 #include <osg/Matrix>
 #include <osg/Texture2D>
+#include <osgDB/ReaderWriter>
 
 #include <map>
 #include <optional>
@@ -47,6 +48,8 @@ private:
     osg::ref_ptr<osg::Image> imageBeside(const JsonPlace& uri);
     osg::ref_ptr<osg::Image> embeddedImage(const JsonPlace& image);
     bool mayDecode(const std::string& begin, const JsonPlace& place);
+    osgDB::ReaderWriter* pluginFor(const std::string& begin, const JsonPlace& place);
+    std::optional<std::string> beginOf(const std::string& path, const JsonPlace& uri);
 
     Document* _document;
     std::map<std::size_t, osg::ref_ptr<osg::Texture2D>> _textures;

@@ -11,6 +11,8 @@
 #include <osgAnimation/RigGeometry>
 #include <osgUtil/UpdateVisitor>
 
+#include <set>
+
 using namespace osgRayTrace::test;
 
 namespace
@@ -220,6 +222,42 @@ TEST_CASE("gltf: two skins bind one joint in two places", "[gltf]")
     checkNear(arrayOf<osg::Vec3Array>(rigs[1]->getVertexArray())[0], 1, 0, 7);
     // A vertex without weights stays with the first joint.
     checkNear(arrayOf<osg::Vec3Array>(rigs[1]->getVertexArray())[2], 1, 4, 7);
+}
+
+TEST_CASE("gltf: bones of equal names follow their own nodes", "[gltf]")
+{
+    Json model = triangleModel();
+    attributesOf(model)["JOINTS_0"] =
+        addAccessor<std::uint8_t>(model, std::vector<std::uint8_t>(12), kUnsignedByte, "VEC4", 3);
+    attributesOf(model)["WEIGHTS_0"] =
+        addAccessor<float>(model, {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, kFloat, "VEC4", 3);
+    const int moved = addAccessor<float>(model, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1},
+                                         kFloat, "MAT4", 1);
+    // Node 1 becomes "Bone#1", and so would the second binding of node 0.
+    model["nodes"] = Json::parse(R"([
+        { "name": "Bone", "translation": [1, 0, 0] }, { "name": "Bone", "translation": [0, 50, 0] },
+        { "mesh": 0, "skin": 0 }, { "mesh": 0, "skin": 1 }, { "mesh": 0, "skin": 2 }])");
+    model["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+    model["skins"] = {
+        {{"joints", {0}}}, {{"joints", {0}}, {"inverseBindMatrices", moved}}, {{"joints", {1}}}};
+    auto scene = sceneOf(model);
+    update(*scene, 0.0);
+    update(*scene, 0.1);
+    const auto rigs = findAll<osgAnimation::RigGeometry>(*scene);
+    REQUIRE(rigs.size() == 3);
+    checkNear(arrayOf<osg::Vec3Array>(rigs[0]->getVertexArray())[0], 1, 0, 0);
+    checkNear(arrayOf<osg::Vec3Array>(rigs[1]->getVertexArray())[0], 1, 0, 7);
+    checkNear(arrayOf<osg::Vec3Array>(rigs[2]->getVertexArray())[0], 0, 50, 0);
+
+    // The first node has the name that the last one would get.
+    model["nodes"] = Json::parse(R"([{ "name": "x#2" }, { "name": "x" }, { "name": "x" }])");
+    model["scenes"][0]["nodes"] = {0, 1, 2};
+    model["skins"] = {{{"joints", {0, 1, 2}}}};
+    scene = sceneOf(model);
+    std::set<std::string> names;
+    for (const osgAnimation::Bone* bone : findAll<osgAnimation::Bone>(*scene))
+        names.insert(bone->getName());
+    CHECK(names == std::set<std::string>{"x", "x#2", "x#2#2"});
 }
 
 TEST_CASE("gltf: morph targets are added by their weights, which clips change", "[gltf]")

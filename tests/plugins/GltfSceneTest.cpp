@@ -165,6 +165,30 @@ TEST_CASE("gltf: lights give the illuminance that the file says", "[gltf]")
     }
 }
 
+TEST_CASE("gltf: ranges of lights are not read, and one line says so", "[gltf]")
+{
+    Json model = triangleModel();
+    model["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::parse(R"([{ "type": "point" }, { "type": "point" }])");
+    model["nodes"] = Json::parse(R"([{ "mesh": 0 },
+        { "extensions": { "KHR_lights_punctual": { "light": 0 } } },
+        { "extensions": { "KHR_lights_punctual": { "light": 1 } } }])");
+    model["scenes"][0]["nodes"] = {0, 1, 2};
+    const auto linesOf = [&model]
+    {
+        const Listening listening;
+        sceneOf(model);
+        const std::string& text = listening.text();
+        const std::size_t first = text.find("ranges of lights");
+        if (first == std::string::npos) return 0;
+        return text.find("ranges of lights", first + 1) == std::string::npos ? 1 : 2;
+    };
+    CHECK(linesOf() == 0);
+    for (Json& light : model["extensions"]["KHR_lights_punctual"]["lights"])
+        light["range"] = 3;
+    CHECK(linesOf() == 1);
+}
+
 TEST_CASE("gltf: instances of a node share its mesh", "[gltf]")
 {
     Json model = triangleModel();
