@@ -1,15 +1,10 @@
 // KeptViewTest.cpp - a view at rest keeps samples where nothing near has changed, and no others.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/photons/PhotonPasses.h"
-#include "osgRayTrace/session/view/ViewTracer.h"
-
 #include "tests/Catch.h"
-#include "tests/EngineScenes.h"
-#include "tests/Environments.h"
 #include "tests/Statistics.h"
+#include "tests/session/KeptYard.h"
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 
 using namespace osgRayTrace;
@@ -19,96 +14,6 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-constexpr int kWidth = 80, kHeight = 48;
-
-/// Returns a floor with a pole on it and a box that stands at x, under a sun from the left and a
-/// sky. What is the same in two scenes is shared.
-struct Yard
-{
-    Yard()
-    {
-        const Material grey = lambert(Vec3(0.5f));
-        builder.add(quadMesh({-60, -60, 0}, {120, 0, 0}, {0, 120, 0}), grey);
-        builder.add(boxMesh({-9, 6, 0}, {-8, 7, 6}), lambert(Vec3(0.2f, 0.6f, 0.3f)));
-        box = builder.add(boxMesh({-1, -1, 0}, {1, 1, 2}), lambert(Vec3(0.8f, 0.1f, 0.1f)));
-        Light sun;
-        sun.kind = LightKind::Directional;
-        sun.diffuse = Vec3(0.6f);
-        sun.direction = glm::normalize(Vec3(1.0f, 0.0f, -1.0f));
-        builder.addLight(sun);
-        builder.addLight(environmentLight(newEnvironment(2, 2, Vec3(0.4f))));
-    }
-
-    std::shared_ptr<Scene> at(float x) const
-    {
-        auto scene = std::make_shared<Scene>(*builder.scene);
-        scene->instances[box].placed = true;
-        scene->instances[box].engineFromLocal.translation = Vec3(x, 0.0f, 0.0f);
-        return scene;
-    }
-
-    SceneBuilder builder;
-    uint32_t box = 0;
-};
-
-std::shared_ptr<const TracedScene> traced(const std::shared_ptr<const Scene>& scene)
-{
-    return TracedScene::build(scene, std::make_shared<Workers>(1));
-}
-
-View yardView()
-{
-    return perspectiveView({0, -30, 14}, {0, 0, 1}, {0, 0, 1}, 40.0, kWidth, kHeight);
-}
-
-/// Traces frames of one pass each.
-struct Watcher
-{
-    explicit Watcher(std::shared_ptr<const TracedScene> scene, bool keeps = true, unsigned seed = 0,
-                     int threads = 1)
-    {
-        inputs.scene = std::move(scene);
-        inputs.workers = std::make_shared<Workers>(threads);
-        inputs.photons = std::make_shared<PhotonPasses>();
-        inputs.options = optionsOf(IntegratorKind::Path, 8, seed);
-        inputs.maxPasses = 1 << 20;
-        inputs.keepsUnchanged = keeps;
-    }
-
-    std::vector<float> show(const View& view = yardView())
-    {
-        rgba.assign(4u * std::size_t(view.width) * std::size_t(view.height), 0);
-        std::vector<float> depth(rgba.size() / 4);
-        tracer.trace(inputs, view, {}, rgba.data(), depth.data());
-        if (tracer.needsResolve(inputs)) tracer.resolve(rgba.data(), depth.data());
-        return tracer.radiance();
-    }
-    std::vector<float> show(const std::shared_ptr<const Scene>& scene)
-    {
-        inputs.scene = traced(scene);
-        return show();
-    }
-    double share() const { return tracer.progress().stages.reprojectedShare; }
-
-    ViewInputs inputs;
-    ViewTracer tracer;
-    std::vector<uint8_t> rgba;
-};
-
-/// Returns what a session without any past makes of so many passes of a sequence.
-std::vector<float> fresh(const std::shared_ptr<const Scene>& scene, uint32_t sequence, int passes)
-{
-    RenderSession session(std::make_shared<Workers>(1));
-    session.setScene(traced(scene));
-    session.setView(yardView());
-    session.setOptions(optionsOf(IntegratorKind::Path));
-    session.setSequence(sequence);
-    StopRule rule;
-    rule.passes = passes;
-    session.render(rule);
-    return session.resolveRadiance();
-}
-
 double squaredError(const std::vector<float>& picture, const std::vector<float>& reference)
 {
     double sum = 0.0;
@@ -116,16 +21,6 @@ double squaredError(const std::vector<float>& picture, const std::vector<float>&
         if (i % 4 != 3)
             sum += (double(picture[i]) - reference[i]) * (double(picture[i]) - reference[i]);
     return sum / (0.75 * double(picture.size()));
-}
-
-bool samePixel(const std::vector<float>& a, const std::vector<float>& b, std::size_t pixel)
-{
-    return std::memcmp(&a[4 * pixel], &b[4 * pixel], 4 * sizeof(float)) == 0;
-}
-
-float brightness(const std::vector<float>& picture, std::size_t pixel)
-{
-    return picture[4 * pixel] + picture[4 * pixel + 1] + picture[4 * pixel + 2];
 }
 
 } // namespace
@@ -314,28 +209,6 @@ TEST_CASE("kept view: all that is not a few objects restarts", "[session]")
     check(moved, nothing,
           perspectiveView({1, -30, 14}, {0, 0, 1}, {0, 0, 1}, 40.0, kWidth, kHeight));
     check(moved, nothing, perspectiveView({0, -30, 14}, {0, 0, 1}, {0, 0, 1}, 40.0, 64, 48));
-}
-
-TEST_CASE("kept view: a mirror keeps little, and nothing where it shows the box", "[session]")
-{
-    Yard yard;
-    yard.builder.add(quadMesh({-12, 9, 0}, {24, 0, 0}, {0, 0, 9}), mirror(Vec3(0.9f)));
-    const auto before = yard.at(-2.0f), after = yard.at(2.0f);
-    Watcher watcher(traced(before));
-    for (int frame = 0; frame < 16; ++frame)
-        watcher.show();
-    const std::vector<float> kept = watcher.show(after), own = fresh(after, 1, 1);
-    const std::vector<float> old = fresh(before, 5, 64), now = fresh(after, 5, 64);
-    int changed = 0, ghosts = 0;
-    for (std::size_t i = 0; i < old.size() / 4; ++i)
-    {
-        const bool differs =
-            std::abs(brightness(old, i) - brightness(now, i)) > 0.3f * brightness(now, i);
-        changed += differs;
-        ghosts += differs && !samePixel(kept, own, i);
-    }
-    CHECK(changed > 60);
-    CHECK(ghosts == 0);
 }
 
 TEST_CASE("kept view: equal bits for one and two threads", "[session]")

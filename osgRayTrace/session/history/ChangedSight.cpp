@@ -25,6 +25,7 @@ struct FromPole
 void findPixels(const View& view, Vec3d pole, SeenBox& box)
 {
     const Mat4d clipFromWorld = view.clipFromView * view.viewFromWorld;
+    const double wCentre = (clipFromWorld * Vec4d(pole + Vec3d(box.centre), 1.0)).w;
     double left = 1e30, right = -1e30, bottom = 1e30, top = -1e30;
     bool inFront = true;
     for (int corner = 0; corner < 8; ++corner)
@@ -33,8 +34,7 @@ void findPixels(const View& view, Vec3d pole, SeenBox& box)
             pole + Vec3d(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
                          corner & 4 ? box.high.z : box.low.z);
         const Vec4d clip = clipFromWorld * Vec4d(p, 1.0);
-        const double wFirst = (clipFromWorld * Vec4d(pole + Vec3d(box.centre), 1.0)).w;
-        inFront = inFront && clip.w * wFirst > 0.0 && std::abs(clip.w) > 1e-3 * std::abs(wFirst);
+        inFront = inFront && clip.w * wCentre > 0.0 && std::abs(clip.w) > 1e-3 * std::abs(wCentre);
         const double x = 0.5 * (clip.x / clip.w + 1.0) * view.width,
                      y = 0.5 * (clip.y / clip.w + 1.0) * view.height;
         left = std::min(left, x);

@@ -13,6 +13,13 @@ namespace osgRayTrace::engine
 /// Shadows of more lights than this number are not looked for: nothing is kept.
 constexpr std::size_t kMostShadowLights = 32;
 
+/// Each box is looked at once by itself and once for each light, for all tiles of an image. If
+/// there are more looks than this number, nothing is kept.
+constexpr std::size_t kMostLooks = 1024;
+
+/// The pixels of a tile that more looks than this number concern keep nothing.
+constexpr std::size_t kMostTileLooks = 32;
+
 /// A changed box. Places are relative to the pole of a SurfaceMap [world length].
 struct SeenBox
 {

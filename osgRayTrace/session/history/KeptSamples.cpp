@@ -47,6 +47,11 @@ struct TileSight
     std::vector<const SeenBox*> direct, near, reflected;
     std::vector<std::pair<const ShadowLight*, const SeenBox*>> shadows;
     float farShare = 0.0f;
+
+    std::size_t looks() const
+    {
+        return direct.size() + near.size() + reflected.size() + shadows.size();
+    }
 };
 
 struct Limiter
@@ -208,8 +213,9 @@ void Limiter::tile(int left, int bottom, float* limits) const
     tile.spots.reserve(kTilePixels);
     findSpots(left, bottom, tile);
     findBoxes(left, bottom, tile);
+    const bool crowded = tile.looks() > kMostTileLooks;
     for (const Spot& spot : tile.spots)
-        limits[spot.pixel] = limit(tile, spot);
+        limits[spot.pixel] = crowded ? 0.0f : limit(tile, spot);
 }
 
 /// Sets each value of a row to the least of itself and its neighbours', in the three rows given.
@@ -233,7 +239,8 @@ void limitKept(const SurfaceMap& map, const Scene& scene, const std::vector<Ligh
 {
     if (change.boxes.empty()) return;
     const ChangedSight sight = changedSight(map, scene, lights, change);
-    if (sight.lights.size() > kMostShadowLights)
+    if (sight.lights.size() > kMostShadowLights ||
+        sight.boxes.size() * (1 + sight.lights.size()) > kMostLooks)
     {
         std::fill(count.begin(), count.end(), 0.0f);
         return;

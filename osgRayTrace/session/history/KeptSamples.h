@@ -23,7 +23,8 @@ constexpr float kSmoothKept = 4.0f;
 ///   surface, and d its distance. Lobes around the mirror direction see a box in
 ///   the share of their width that it takes. What is stale then remains below half the noise of as
 ///   many samples whose deviation is their mean;
-/// - to kSmoothKept if the surface is a mirror or clear glass.
+/// - to kSmoothKept if the surface is a mirror or clear glass;
+/// - to 0 if there are too many boxes and lights to look at, see ChangedSight.h.
 ///
 /// Each pixel has the least of its limit and those of the eight pixels around it, as it may show
 /// their surfaces in part. map: surfaces of the view before the change. lights: those of the scene,

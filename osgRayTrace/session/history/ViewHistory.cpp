@@ -12,6 +12,7 @@
 #include "osgRayTrace/session/history/KeptSamples.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 
@@ -226,11 +227,16 @@ bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float 
     constexpr double kLeastShare = 0.25; // of pixels: fewer are not worth it
     const Clock::time_point begin = Clock::now();
     takeSamples(session, workers);
-    for (float& count : _left.count)
-        count = std::min(count, most);
+    const auto width = static_cast<std::size_t>(session.width());
+    forEachRows(workers, session.height(),
+                [&](std::size_t first, std::size_t end)
+                {
+                    for (std::size_t i = first * width; i < end * width; ++i)
+                        _left.count[i] = std::min(_left.count[i], most);
+                });
     limitKept(session.firstSurfaces(), session.imageScene().scene(), session.imageLights(), change,
               workers, _left.count);
-    const std::ptrdiff_t lost = std::count(_left.count.begin(), _left.count.end(), 0.0f);
+    const std::size_t lost = findLacking(session, workers);
     const double share = 1.0 - static_cast<double>(lost) / static_cast<double>(_left.count.size());
     if (share < kLeastShare)
     {
@@ -242,19 +248,34 @@ bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float 
     _isKept = true;
     _most = most;
     _share = share;
-    findLacking(session);
     _seconds = secondsSince(begin);
     return true;
 }
 
-void ViewHistory::findLacking(const RenderSession& session)
+/// Finds the tiles in which pixels of _left have no samples. Returns the number of these pixels.
+std::size_t ViewHistory::findLacking(const RenderSession& session, const Workers& workers)
 {
     const auto width = static_cast<std::size_t>(session.width());
     const auto across = static_cast<std::size_t>(tilesAlong(session.width()));
-    _lacking.assign(across * static_cast<std::size_t>(tilesAlong(session.height())), 0);
-    for (std::size_t i = 0; i < _history.count.size(); ++i)
-        if (_history.count[i] == 0.0f)
-            _lacking[i / width / kTileSize * across + i % width / kTileSize] = 1;
+    const auto down = static_cast<std::size_t>(tilesAlong(session.height()));
+    _lacking.assign(across * down, 0);
+    std::atomic<std::size_t> lost{0};
+    workers.forEach(down,
+                    [&](std::size_t row)
+                    {
+                        const std::size_t first = row * kTileSize * width;
+                        const std::size_t end =
+                            std::min(_left.count.size(), first + kTileSize * width);
+                        std::size_t lostHere = 0;
+                        for (std::size_t i = first; i < end; ++i)
+                        {
+                            if (_left.count[i] != 0.0f) continue;
+                            ++lostHere;
+                            _lacking[row * across + i % width / kTileSize] = 1;
+                        }
+                        lost += lostHere;
+                    });
+    return lost;
 }
 
 bool ViewHistory::isWhole(const RenderSession& session) const

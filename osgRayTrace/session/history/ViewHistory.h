@@ -95,7 +95,7 @@ private:
     void blendRows(const RenderSession& session, const ToneMap* toneMap, uint8_t* rgba,
                    float* depth);
     void takeSamples(const RenderSession& session, const Workers& workers);
-    void findLacking(const RenderSession& session);
+    std::size_t findLacking(const RenderSession& session, const Workers& workers);
 
     SampledImage _history; ///< history of the present view
     SampledImage _left;    ///< samples that leave took

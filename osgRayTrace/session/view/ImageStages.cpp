@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/TracedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+#include "osgRayTrace/session/history/SharedChange.h"
 #include "osgRayTrace/session/upsample/Upsample.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ bool ImageStages::keepView(RenderSession& session, const ImageInputs& next)
                          samePath && next.view == _imageView &&
                          !next.options.needsRestart(_imageOptions);
     if (!mayKeep || (_pause > 0 && _pause--)) return false;
-    const std::optional<SceneChange> change = sceneChange(before->scene(), next.scene->scene());
+    const std::shared_ptr<const SceneChange> change = sharedChange(before, next.scene);
     if (!change) return false;
     if (!_history.keep(session, *change, _mostKept, *_workers))
     {
@@ -77,6 +78,7 @@ bool ImageStages::keepView(RenderSession& session, const ImageInputs& next)
     session.setKeepsSurfaces(true);
     session.setContinuesView(true);
     session.setSequence(_sequence + 1);
+    _viewDependence = viewDependence(next.scene->scene());
     _isKeeping = true;
     ++_versionsKept;
     return true;
