@@ -259,11 +259,16 @@ void GraphCollector::walkBelow(osg::Node& node)
 bool GraphCollector::collectsInCull(osg::Node& node)
 {
     if (_lightsOnly || _isLeft || _leftToOsg > 0 || &node == _input.root) return false;
-    const bool someSee = node.asGroup() && isForSomeViews(node);
+    const bool someSee = isForSomeViews(node) && (node.asGroup() || cullReason(node));
     if (someSee || (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
                     leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node)))
     {
         rasterize();
+        if (!node.asGroup())
+        {
+            _report.count("rasterized.view-mask");
+            return true;
+        }
         _isLeft = true;
         walkBelow(node);
         _isLeft = false;
@@ -294,7 +299,7 @@ bool GraphCollector::collectsInCull(osg::Node& node)
 bool GraphCollector::collectsChosen(osg::Drawable& drawable)
 {
     if (!_input.rasterizesRest || !_input.pass || !_input.view || _isLeft || _leftToOsg > 0 ||
-        leavesToOsg(hintOf(getNodePath())))
+        leavesToOsg(hintOf(getNodePath())) || isForSomeViews(drawable))
         return false;
     const char* reason = cullReason(drawable);
     if (!reason) return false;
