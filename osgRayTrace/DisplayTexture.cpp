@@ -228,6 +228,13 @@ void DisplayTexture::modified(const engine::ChangedTiles& tiles)
         modified();
 }
 
+void DisplayTexture::clear()
+{
+    for (Picture* picture : {&_full, &_reduced})
+        picture->width = picture->height = 0;
+    _shown = &_full;
+}
+
 void DisplayTexture::show(osg::Image* color, osg::Image* depth)
 {
     _shown = &_full;

@@ -53,6 +53,9 @@ public:
     void modified();
     void modified(const engine::ChangedTiles& tiles); ///< tiles: all that was modified
 
+    /// Drops the picture: the size is 0 until there is another one.
+    void clear();
+
     /// Puts images of equal size, allocated as resize() does it, in place of the present ones.
     void show(osg::Image* color, osg::Image* depth);
 

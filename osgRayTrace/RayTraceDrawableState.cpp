@@ -30,7 +30,11 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
     scene.recordDrawn(renderInfo.getCurrentCamera(),
                       osg::Matrixd::inverse(state.getModelViewMatrix()).getTrans(),
                       nearDistance(state.getProjectionMatrix()));
-    if (!version.seen && budget.seconds > 0.0) return recordNothingSeen(version);
+    if (!version.seen && budget.seconds > 0.0 && !paused)
+    {
+        view.forget();
+        return recordNothingSeen(version);
+    }
     view.update({version, pass.view, found.slices, found.shared, budget, paused});
     const bool drawn = view.draw(renderInfo, pass.view);
     recordProgress(found.state, version);
@@ -39,7 +43,7 @@ void RayTraceDrawable::Implementation::draw(osg::RenderInfo& renderInfo)
 }
 
 /// Records that a picture without anything in it is complete: nothing is traced for it, and nothing
-/// drawn.
+/// drawn. There is no image of it either.
 void RayTraceDrawable::Implementation::recordNothingSeen(const engine::SceneVersion& version)
 {
     engine::TraceReport nothing;
@@ -47,8 +51,10 @@ void RayTraceDrawable::Implementation::recordNothingSeen(const engine::SceneVers
     nothing.progress.passes = version.inputs.maxPasses;
     nothing.progress.imageShare = 1.0;
     nothing.progress.relativeError = 0.0;
+    std::shared_ptr<ViewPresenter> last; // freed without the lock
     std::lock_guard<std::mutex> lock(mutex);
     report = std::move(nothing);
+    lastView.swap(last);
 }
 
 void RayTraceDrawable::Implementation::recordProgress(const std::shared_ptr<ViewPresenter>& view,

@@ -7,6 +7,7 @@
 #include <OpenThreads/Thread>
 
 #include <algorithm>
+#include <utility>
 
 namespace osgRayTrace
 {
@@ -62,11 +63,23 @@ std::optional<engine::View> ViewPresenter::viewToTrace(const ViewFrame& frame)
 
 void ViewPresenter::update(const ViewFrame& frame)
 {
+    _holds = true;
     if (!frame.shared) ++_frames;
     if (frame.version.settings->getPresentation() == RayTraceSettings::BACKGROUND)
         askWorker(frame);
     else
         traceNow(frame);
+}
+
+void ViewPresenter::forget()
+{
+    if (!std::exchange(_holds, false)) return;
+    _tracer.forget();
+    _display.clear();
+    _slices.clear();
+    _presentedSlices.clear();
+    _newest = engine::TracedImage();
+    _inBackground = _traced = false;
 }
 
 void ViewPresenter::traceNow(const ViewFrame& frame)

@@ -45,6 +45,10 @@ public:
     /// GLSL.
     bool draw(osg::RenderInfo& renderInfo, const engine::View& pass);
 
+    /// Lets go of the image, of what it was traced of, and of the worker. The display shows nothing
+    /// until the next update() has an image.
+    void forget();
+
     /// Returns the report of the last update().
     engine::TraceReport report(const engine::SceneVersion& version);
     bool inBackground() const { return _inBackground; } ///< any thread
@@ -76,6 +80,7 @@ private:
     std::vector<engine::View>
         _presentedSlices; ///< slices of the passes for which the display's image was traced
     std::atomic<bool> _inBackground{false};
+    bool _holds = false;         ///< whether there may be something to forget
     bool _traced = false;        ///< in this frame, by draw
     uint64_t _frames = 0;        ///< frames that the view has drawn
     engine::TracedImage _newest; ///< image that the display shows in the background

@@ -8,22 +8,12 @@
 # SPDX-License-Identifier: MIT
 set -u
 HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-BUILD=$HERE/../../build/release
-OUT=
 JOBS=2       # programs at a time
 SECONDS_EACH=120
 LOG_LINES=12 # of ours at most in the log of a program: a kind of bad data has a line or two, and is counted
-NAMES=()
-while [ $# -gt 0 ]; do
-    case $1 in
-    --build) BUILD=$2; shift 2 ;;
-    --out) OUT=$2; shift 2 ;;
-    -*) sed -n '2,8s/^# //p' "$0" >&2; exit 2 ;;
-    *) NAMES+=("$1"); shift ;;
-    esac
-done
-BUILD=$(cd "$BUILD" && pwd) || exit 2
-OUT=${OUT:-$BUILD/clients}
+OPTION=out VALUE=
+. "$HERE/options.sh"
+OUT=${VALUE:-$BUILD/clients}
 mkdir -p "$OUT" && OUT=$(cd "$OUT" && pwd) || exit 2
 
 . "$HERE/table.sh"

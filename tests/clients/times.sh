@@ -4,18 +4,9 @@
 # SPDX-License-Identifier: MIT
 set -u
 HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-BUILD=$HERE/../../build/release
-PAIRS=5
-NAMES=()
-while [ $# -gt 0 ]; do
-    case $1 in
-    --build) BUILD=$2; shift 2 ;;
-    --pairs) PAIRS=$2; shift 2 ;;
-    -*) sed -n '2,3s/^# //p' "$0" >&2; exit 2 ;;
-    *) NAMES+=("$1"); shift ;;
-    esac
-done
-BUILD=$(cd "$BUILD" && pwd) || exit 2
+OPTION=pairs VALUE=5
+. "$HERE/options.sh"
+PAIRS=$VALUE
 [ ${#NAMES[@]} -gt 0 ] || NAMES=(osgshaders osgtext osglightpoint osgsimplegl3 rasterized)
 WORK=$(mktemp -d) || exit 2
 trap 'rm -rf "$WORK"' EXIT

@@ -9,6 +9,7 @@
 #include <osgRayTrace/RayIntersector>
 
 #include <osg/Program>
+#include <osg/ValueObject>
 #include <osgManipulator/Dragger>
 
 using namespace osgRayTrace;
@@ -41,6 +42,20 @@ osg::ref_ptr<osg::Camera> hud()
     return camera;
 }
 
+/// Knows no material, and notes the geometry with a kind that it was asked for.
+class SilentHook : public MaterialHook
+{
+public:
+    osg::ref_ptr<PhysicalMaterial> materialFor(const osg::NodePath& path,
+                                               const std::vector<const osg::StateSet*>&) override
+    {
+        std::string kind;
+        if (path.back()->getUserValue("kind", kind)) asked = kind + " " + path.back()->getName();
+        return nullptr;
+    }
+    std::string asked;
+};
+
 } // namespace
 
 TEST_CASE("application drawing: a rig that chooses its geometry in cull", "[gl][cull]")
@@ -55,6 +70,23 @@ TEST_CASE("application drawing: a rig that chooses its geometry in cull", "[gl][
         CHECK(view.count("not-traced.custom-drawable") == 0);
         CHECK(view.count("traced.proxy") == 0);
         view.viewer.frames(2);
+        const uint64_t conversions = view.conversions();
+        view.viewer.frames(5);
+        CHECK(view.conversions() == conversions);
+    }
+    SECTION("is traced, and at rest once, when a hook is asked in vain")
+    {
+        const osg::ref_ptr<SilentHook> hook = new SilentHook;
+        for (unsigned int frame : {0u, 1u})
+        {
+            rig->pose(frame).setName("skin");
+            rig->pose(frame).setUserValue("kind", std::string("cloth"));
+        }
+        View view(content.get());
+        view.scene->getSettings()->setMaterialHook(hook.get());
+        view.viewer.frames(3);
+        CHECK(view.count("converted.culled") == 1);
+        CHECK(hook->asked == "cloth skin");
         const uint64_t conversions = view.conversions();
         view.viewer.frames(5);
         CHECK(view.conversions() == conversions);

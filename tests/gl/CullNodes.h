@@ -160,7 +160,7 @@ public:
             return osg::Drawable::accept(visitor);
         if (!visitor.validNodeMask(*this) || hidden) return;
         visitor.pushOntoNodePath(this);
-        if (visitor.getTraversalNumber() != _frame) pose(visitor.getTraversalNumber());
+        if (visitor.getTraversalNumber() != _frame) setPose(visitor.getTraversalNumber());
         visitor.pushOntoNodePath(&chosen());
         visitor.apply(chosen());
         visitor.popFromNodePath();
@@ -169,13 +169,14 @@ public:
     osg::BoundingBox computeBoundingBox() const override { return {-3, -3, -3, 3, 3, 3}; }
     bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     void accept(osg::PrimitiveFunctor& functor) const override { chosen().accept(functor); }
-    osg::Geometry& chosen() const { return *_poses[_frame % 2]; }
+    osg::Geometry& chosen() const { return pose(_frame); }
+    osg::Geometry& pose(unsigned int frame) const { return *_poses[frame % 2]; }
 
-    osg::Vec3 shift; ///< pose: moves all vertices
+    osg::Vec3 shift; ///< moves all vertices
     bool hidden = false;
 
 private:
-    void pose(unsigned int frame)
+    void setPose(unsigned int frame)
     {
         _frame = frame;
         auto& vertices = static_cast<osg::Vec3Array&>(*chosen().getVertexArray());

@@ -36,6 +36,43 @@ TEST_CASE("drawable: the viewport may change, start anywhere and be empty", "[gl
     CHECK(countGreen(*view.frames()) == whole);
 }
 
+TEST_CASE("drawable: a scene that is seen no more leaves no image, except at pause", "[gl]")
+{
+    const bool inBackground = GENERATE(false, true);
+    const osg::ref_ptr<RayTracedScene> scene = greenScene();
+    const osg::ref_ptr<osg::Node> square = scene->getChild(0);
+    const osg::ref_ptr<RayTraceDrawable> drawable = scene->getDrawable();
+    scene->getSettings()->setFrameBudget(1000.0f);
+    if (inBackground) scene->getSettings()->setPresentation(RayTraceSettings::BACKGROUND);
+    TestViewer view(kSize, kSize, scene.get());
+    const auto showGreen = [&]
+    {
+        int green = 0;
+        for (int i = 0; i < 20000 && green == 0; ++i) // more frames than any machine needs
+            green = countGreen(*view.frames());
+        return green;
+    };
+    CHECK(showGreen() > 100);
+    REQUIRE(drawable->getColorImage());
+    drawable->setPaused(true);
+    scene->removeChild(square);
+    CHECK(countGreen(*view.frames(2)) > 100);
+    CHECK(drawable->getColorImage());
+
+    drawable->setPaused(false);
+    CHECK(countGreen(*view.frames(2)) == 0);
+    CHECK_FALSE(drawable->getColorImage());
+    CHECK_FALSE(drawable->getChannelImage("depth"));
+
+    const osg::ref_ptr<osg::Group> moved =
+        new osg::MatrixTransform(osg::Matrix::translate(9, 0, 0));
+    moved->addChild(square);
+    scene->addChild(moved);
+    CHECK(countGreen(*view.frames(2)) == 0); // nothing is left of the old picture
+    scene->addChild(square);
+    CHECK(showGreen() > 100);
+}
+
 TEST_CASE("drawable: GL objects are released and made again", "[gl]")
 {
     osg::ref_ptr<RayTracedScene> scene = greenScene();

@@ -2,17 +2,14 @@
 // tests.
 // SPDX-License-Identifier: MIT
 #include "DepthPartition.h"
-#include "TestViewer.h"
-#include "tests/Catch.h"
+#include "Squares.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/MatrixTransform>
-#include <osgDB/WriteFile>
 
 #include <chrono>
-#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <string>
@@ -23,51 +20,6 @@ using namespace osgRayTrace::test;
 
 namespace
 {
-
-constexpr int kSize = 96;
-
-/// Returns unlit squares whose edges do not meet: two ways to draw them may differ only at edges.
-osg::ref_ptr<osg::Group> squares()
-{
-    const struct
-    {
-        osg::Vec3d at;
-        float half;
-        osg::Vec4 color;
-    } all[] = {{{0.3, 0.2, 6.0}, 0.6f, {1, 0, 0, 1}},
-               {{-1.0, 0.4, 2.0}, 1.2f, {0, 1, 0, 1}},
-               {{1.5, -1.0, -8.0}, 4.0f, {0, 0, 1, 1}},
-               {{-6.0, 8.0, -70.0}, 20.0f, {1, 1, 0, 1}}};
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    for (const auto& square : all)
-    {
-        // The squares are tilted, so that the slices cut them.
-        osg::ref_ptr<osg::MatrixTransform> place =
-            new osg::MatrixTransform(osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, 1.0, 0.0)) *
-                                     osg::Matrixd::translate(square.at));
-        place->addChild(unlitSquare(square.half, square.color));
-        group->addChild(place);
-    }
-    return group;
-}
-
-osg::ref_ptr<RayTracedScene> tracedSquares(int passesPerFrame = 1)
-{
-    osg::ref_ptr<RayTracedScene> scene = tracedScene(squares().get());
-    scene->getSettings()->setPassesPerFrame(passesPerFrame);
-    return scene;
-}
-
-Statistics statistics(const RayTracedScene& scene)
-{
-    return scene.getDrawable()->getStatistics();
-}
-
-void keep(const std::string& name, const osg::Image& image)
-{
-    if (const char* folder = std::getenv("OSGRAYTRACE_PICTURES"))
-        osgDB::writeImageFile(image, std::string(folder) + "/" + name + ".png");
-}
 
 osg::ref_ptr<osg::DisplaySettings> stereo(osg::DisplaySettings::StereoMode mode)
 {
@@ -80,40 +32,6 @@ osg::ref_ptr<osg::DisplaySettings> stereo(osg::DisplaySettings::StereoMode mode)
     settings->setSplitStereoHorizontalSeparation(0);
     settings->setSplitStereoVerticalSeparation(0);
     return settings;
-}
-
-/// Returns the picture, after this many frames, of a scene whose viewer is prepared by setUp.
-template <class SetUp>
-osg::ref_ptr<osg::Image> picture(osg::Node* scene, const SetUp& setUp, int frames = 1)
-{
-    TestViewer view(kSize, kSize, scene);
-    setUp(view);
-    return view.frames(frames);
-}
-
-/// Returns the share of the pixels of one colour to which OpenGL gives another colour: it is not
-/// small if matrices or eyes differ.
-double differenceInside(const std::string& name, const osg::Image& drawn, const osg::Image& traced)
-{
-    keep(name + "-osg", drawn);
-    keep(name + "-traced", traced);
-    REQUIRE((drawn.s() == traced.s() && drawn.t() == traced.t()));
-    long inside = 0, wrong = 0, colored = 0;
-    for (int y = 0; y < drawn.t(); ++y)
-        for (int x = 0; x < drawn.s(); ++x)
-        {
-            const osg::Vec4 t = pixel(traced, x, y);
-            bool pure = true;
-            for (int c = 0; c < 3; ++c)
-                pure = pure && (t[c] == 0.0f || t[c] == 255.0f);
-            if (!pure) continue;
-            ++inside;
-            colored += t.r() + t.g() + t.b() > 0.0f;
-            wrong += (t - pixel(drawn, x, y)).length() > 0.0f;
-        }
-    CHECK(inside > drawn.s() * drawn.t() * 3 / 4);
-    CHECK(colored > drawn.s() * drawn.t() / 8);
-    return double(wrong) / double(inside);
 }
 
 template <class SetUp> double differenceFromOpenGl(const std::string& name, const SetUp& setUp)
@@ -201,45 +119,6 @@ TEST_CASE("views: viewports and slave cameras in one window", "[gl]")
     scene->getSettings()->setPassesPerFrame(61);
     const osg::ref_ptr<osg::Image> traced = view.frames();
     CHECK(differenceInside("slaves", *drawn, *traced) == 0.0);
-}
-
-TEST_CASE("views: what node masks hide from some views is OSG's", "[gl]")
-{
-    const auto masked = []
-    {
-        osg::ref_ptr<osg::Group> group = squares();
-        group->getChild(0)->setNodeMask(1);
-        group->getChild(1)->asGroup()->getChild(0)->setNodeMask(2);
-        return group;
-    };
-    for (int captured = 0; captured < 2; ++captured)
-    {
-        CAPTURE(captured);
-        const auto setUp = [captured](TestViewer& view)
-        {
-            for (int i = 0; i < 2; ++i)
-            {
-                osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-                camera->setGraphicsContext(view.camera().getGraphicsContext());
-                camera->setViewport(i * kSize / 2, 0, kSize / 2, kSize);
-                camera->setClearColor(osg::Vec4(0, 0, 0, 1));
-                camera->setRenderOrder(osg::Camera::POST_RENDER);
-                camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-                camera->setCullMask(1u << i);
-                if (i == captured) camera->addFinalDrawCallback(view.capture.get());
-                view.viewer.addSlave(camera.get());
-            }
-        };
-        const osg::ref_ptr<osg::Image> drawn = picture(masked().get(), setUp, 2);
-        const osg::ref_ptr<RayTracedScene> scene = tracedScene(masked().get());
-        scene->getSettings()->setPassesPerFrame(61);
-        TestViewer view(kSize, kSize, scene.get());
-        setUp(view);
-        const osg::ref_ptr<osg::Image> traced = view.frames(3);
-        CHECK(differenceInside("masks", *drawn, *traced) == 0.0);
-        CHECK(statistics(*scene).conversion["rasterized.view-mask"] == 2);
-        CHECK(statistics(*scene).conversions <= 3); // one for each view of the first frame
-    }
 }
 
 TEST_CASE("views: a scene that a pass shows twice has an image for each, nested cameras too",

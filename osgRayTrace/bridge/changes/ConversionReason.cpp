@@ -55,6 +55,7 @@ constexpr CauseText kTexts[] = {
      "colours, texture coordinates or other vertex attributes have changed"},
     {ConversionCause::MovedSpecial,
      "a transform has moved a light or a node of a class that is not known"},
+    {ConversionCause::NodeMask, "a node mask hides other nodes than before from some of the views"},
     {ConversionCause::MaterialFile, "state has changed or nodes came while a material file is set"},
     {ConversionCause::OtherPaths, "the paths to a geometry are not those of the last conversion"},
     {ConversionCause::NotAlone,

@@ -40,6 +40,7 @@ enum class ConversionCause : uint8_t
     DrawingMode,
     VertexAttributes,
     MovedSpecial,
+    NodeMask,
     // ScenePatcher and PlacePatcher find these causes:
     MaterialFile,
     OtherPaths,

@@ -44,6 +44,7 @@ public:
           _eye(conditions.eye),
           _view(conditions.view),
           _reads(conditions.reads),
+          _hasViewMasks(!conditions.viewMasks.empty()),
           _cullStack(conditions.view),
           _sceneFromLocal(sceneFromLocal)
     {
@@ -160,6 +161,7 @@ private:
         _hasher.addObject(&node);
         _hasher.addObject(node.getCullCallback());
         _hasher.add(ownHint(node));
+        if (_hasViewMasks) _hasher.add(node.getNodeMask());
         addStateSetOf(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
         _hasher.add(kEnd);
@@ -169,6 +171,7 @@ private:
     {
         _hasher.addObject(&drawable);
         _hasher.add(ownHint(drawable));
+        if (_hasViewMasks) _hasher.add(drawable.getNodeMask());
         addStateSetOf(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _hasher.add(box._min, box._max);
@@ -206,6 +209,7 @@ private:
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     std::shared_ptr<const ShaderReads> _reads;
+    bool _hasViewMasks; ///< whether node masks hide from some views alone
     ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
     osg::Geometry::ArrayList _arrays;

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/Prefetch.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/common/MemoryHash.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 
@@ -82,11 +83,29 @@ void GraphWatch::record(osg::Node& root, const ViewingConditions& conditions)
         _graph.append(*first, kNowhere, osg::Matrixd(), _graph.firstDepth, _plain);
     }
     _graph.finish();
+    _hidingHash = hidingHash();
     takeVersions(before);
     _graph.nodes.shrink_to_fit();
     _graph.kept.shrink_to_fit();
     _graph.places.shrink_to_fit();
     _recorded = true;
+}
+
+/// Returns a hash of the nodes that are hidden from some of the views, which OSG draws; 0 if the
+/// views have the same mask.
+uint64_t GraphWatch::hidingHash() const
+{
+    const std::vector<unsigned int>& masks = _plain.viewMasks;
+    if (masks.empty()) return 0;
+    uint64_t hash = 0;
+    for (const WatchedNode& node : _graph.nodes)
+    {
+        const unsigned int own = node.node->getNodeMask();
+        if (std::any_of(masks.begin(), masks.end(),
+                        [own](unsigned int mask) { return (own & mask) == 0; }))
+            hash += fold(bitsOf(node.node), 1);
+    }
+    return hash;
 }
 
 /// Takes over the known contents of the untracked nodes that were in the graph before.
@@ -115,7 +134,8 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     ConversionCause notComparable = ConversionCause::None;
     if (!_recorded)
         notComparable = ConversionCause::NotWatched;
-    else if (conditions.traversalMask != _graph.traversalMask)
+    else if (conditions.traversalMask != _graph.traversalMask ||
+             conditions.viewMasks != _plain.viewMasks)
         notComparable = ConversionCause::OtherConditions;
     else if (ObjectName(firstNode(root)) != _first)
         notComparable = ConversionCause::FirstNode;
@@ -145,6 +165,9 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
         _inheritedHash = inheritedHash(conditions, &kept);
         _inheritedKept = std::move(kept);
     }
+    const uint64_t hiding = hidingHash();
+    if (hiding != _hidingHash) mustConvert(changes, ConversionCause::NodeMask, kNowhere);
+    _hidingHash = hiding;
     if (_anyMoved || _anyStateChanged) findChanged(changes);
     // Nodes that the watch has not seen may be among those that have moved up.
     if (_graph.truncated && !changes.none())

@@ -45,6 +45,7 @@ private:
     void mustRecord(GraphChanges& changes, ConversionCause cause, uint32_t node) const;
     bool giveUp(GraphChanges& changes, ConversionCause cause, uint32_t node) const;
     std::string pathTo(uint32_t node) const;
+    uint64_t hidingHash() const;
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
     bool isUntrackedAsItWas(WatchedNode& node);
@@ -66,6 +67,7 @@ private:
     ObjectName _first;        ///< first watched node; none: nothing is visible
     ViewingConditions _plain; ///< conditions of the last look without inherited state
     uint64_t _inheritedHash = 0;
+    uint64_t _hidingHash = 0;   ///< see hidingHash()
     KeptObjects _inheritedKept; ///< objects that the hash refers to
     WatchedGraph _graph;
     uint64_t _looks = 0;

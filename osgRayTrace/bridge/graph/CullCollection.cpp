@@ -200,21 +200,25 @@ CullOutcome GraphCollector::cullOutcome()
 
 /// Decides what becomes of a drawable that may draw others in its place, as rigs of applications
 /// do. Left: it draws itself. Plain: it draws others, or nothing, and they cannot be traced. In
-/// both cases OSG draws it like any drawable that is not known.
+/// both cases OSG draws it like any drawable that is not known. What is chosen is asked for by its
+/// copy, which stays the same object from frame to frame.
 CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
                                               const CapturedContent& culled, CullOutcome& outcome)
 {
     for (const CapturedLeaf& leaf : culled.leaves)
         if (leaf.drawable == &drawable) return CullOutcome::Left;
     if (culled.leaves.empty() || culled.otherStages) return CullOutcome::Plain;
-    for (const CapturedLeaf& leaf : culled.leaves)
-        if (leftReason(leaf)) return CullOutcome::Plain;
+    std::vector<CapturedLeaf> traced;
     for (std::size_t i = 0; i < culled.leaves.size(); ++i)
     {
         CapturedLeaf leaf = culled.leaves[i];
-        leaf.drawable = &_triangles.chosen(drawable, i, *leaf.drawable->asGeometry());
-        outcome.traced.push_back(std::move(leaf));
+        const osg::Geometry* geometry = leaf.drawable->asGeometry();
+        if (!geometry) return CullOutcome::Plain;
+        leaf.drawable = &_triangles.chosen(drawable, i, *geometry);
+        if (leftReason(leaf)) return CullOutcome::Plain;
+        traced.push_back(std::move(leaf));
     }
+    outcome.traced = std::move(traced);
     return CullOutcome::Captured;
 }
 
@@ -255,11 +259,16 @@ void GraphCollector::walkBelow(osg::Node& node)
 bool GraphCollector::collectsInCull(osg::Node& node)
 {
     if (_lightsOnly || _isLeft || _leftToOsg > 0 || &node == _input.root) return false;
-    const bool someSee = node.asGroup() && isForSomeViews(node);
+    const bool someSee = isForSomeViews(node) && (node.asGroup() || cullReason(node));
     if (someSee || (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
                     leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node)))
     {
         rasterize();
+        if (!node.asGroup())
+        {
+            _report.count("rasterized.view-mask");
+            return true;
+        }
         _isLeft = true;
         walkBelow(node);
         _isLeft = false;
@@ -290,7 +299,7 @@ bool GraphCollector::collectsInCull(osg::Node& node)
 bool GraphCollector::collectsChosen(osg::Drawable& drawable)
 {
     if (!_input.rasterizesRest || !_input.pass || !_input.view || _isLeft || _leftToOsg > 0 ||
-        leavesToOsg(hintOf(getNodePath())))
+        leavesToOsg(hintOf(getNodePath())) || isForSomeViews(drawable))
         return false;
     const char* reason = cullReason(drawable);
     if (!reason) return false;

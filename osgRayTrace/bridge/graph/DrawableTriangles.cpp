@@ -140,10 +140,17 @@ osg::Geometry::PrimitiveSetList copyOf(const osg::Geometry::PrimitiveSetList& se
     return copies;
 }
 
+/// Gives the copy what tells hooks, rules and views which geometry it is.
+void setIdentity(osg::Geometry& copy, const osg::Geometry& geometry)
+{
+    copy.setName(geometry.getName());
+    copy.setNodeMask(geometry.getNodeMask());
+    copy.setUserDataContainer(const_cast<osg::UserDataContainer*>(geometry.getUserDataContainer()));
+}
+
 /// Gives the copy the values of a geometry, in arrays of its own.
 void setValues(osg::Geometry& copy, const osg::Geometry& geometry)
 {
-    copy.setName(geometry.getName());
     copy.setStateSet(const_cast<osg::StateSet*>(geometry.getStateSet()));
     copy.setVertexArray(copyOf(geometry.getVertexArray()).get());
     copy.setNormalArray(copyOf(geometry.getNormalArray()).get());
@@ -187,6 +194,7 @@ osg::Geometry& DrawableTriangles::chosen(const osg::Drawable& drawable, std::siz
         if (!copy.triangles) copy.triangles = new osg::Geometry;
         setValues(*copy.triangles, geometry);
     }
+    setIdentity(*copy.triangles, geometry);
     copy.hash = hash;
     return *copy.triangles;
 }

@@ -28,7 +28,7 @@ public:
     /// Returns a copy of the number-th geometry that the drawable has chosen in a cull traversal.
     /// The copy is the same object whichever geometry is chosen, because rigs of applications take
     /// turns with two. It has arrays of its own, as the application writes to its arrays at any
-    /// time.
+    /// time, and the name, the user data and the node mask of the geometry that is chosen now.
     osg::Geometry& chosen(const osg::Drawable& drawable, std::size_t number,
                           const osg::Geometry& geometry);
 

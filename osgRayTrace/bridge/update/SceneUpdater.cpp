@@ -53,7 +53,7 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
 {
     const unsigned int frameNumber = frameNumberOf(frameStamp);
     std::lock_guard<std::mutex> lock(_recordedMutex);
-    recordMask(conditions.traversalMask, frameNumber);
+    _recorded.masks.record(camera, conditions.traversalMask, frameStamp);
     if (_recorded.conditions && _recorded.camera != camera &&
         ++_recorded.othersSince < kReferenceExpiry)
         return;
@@ -68,15 +68,6 @@ void SceneUpdater::recordView(const ObjectName& camera, const osg::FrameStamp* f
         _recorded.conditions ? _recorded.conditions->pass : nullptr;
     _recorded.conditions = conditions;
     if (visitor) _recorded.conditions->pass = cullPass(*visitor, last);
-}
-
-/// Records the mask of a pass, by which its view shows only some of the nodes.
-void SceneUpdater::recordMask(unsigned int mask, unsigned int frameNumber)
-{
-    if (frameNumber != _recorded.maskFrame) _recorded.masksBefore = std::move(_recorded.masks);
-    if (frameNumber != _recorded.maskFrame) _recorded.masks.clear();
-    _recorded.maskFrame = frameNumber;
-    _recorded.masks.insert(mask);
 }
 
 bool SceneUpdater::isViewed() const
@@ -157,7 +148,7 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     try
     {
         takeSettings(settings);
-        convertIfChanged(root, takeRecorded().value_or(ViewingConditions()), frameStamp);
+        convertIfChanged(root, takeRecorded(frameStamp).value_or(ViewingConditions()), frameStamp);
     }
     catch (const std::bad_alloc&)
     {
@@ -173,7 +164,9 @@ void SceneUpdater::update(osg::Node* root, const RayTraceSettings& settings,
     }
 }
 
-std::optional<ViewingConditions> SceneUpdater::takeRecorded()
+/// Takes the requests over and returns the conditions of the reference camera, with the masks of
+/// all views.
+std::optional<ViewingConditions> SceneUpdater::takeRecorded(const osg::FrameStamp* frameStamp)
 {
     OSGRAYTRACE_ASSERT(_updateMutex.isHeld());
     std::lock_guard<std::mutex> lock(_recordedMutex);
@@ -183,12 +176,12 @@ std::optional<ViewingConditions> SceneUpdater::takeRecorded()
     if (more.cause != ConversionCause::None) _asked.cause = more.cause;
     if (more.origin) _asked.origin = more.origin;
     std::optional<ViewingConditions> conditions = _recorded.conditions;
-    std::set<unsigned int> masks = _recorded.masks; // the frame may have more passes to come
-    masks.insert(_recorded.masksBefore.begin(), _recorded.masksBefore.end());
-    if (!conditions || masks.size() < 2) return conditions;
-    conditions->viewMasks.assign(masks.begin(), masks.end());
+    if (!conditions) return conditions;
+    std::vector<unsigned int> masks = _recorded.masks.inUse(frameStamp);
+    conditions->traversalMask = 0;
     for (const unsigned int mask : masks)
         conditions->traversalMask |= mask;
+    if (masks.size() > 1) conditions->viewMasks = std::move(masks);
     return conditions;
 }
 

@@ -11,6 +11,7 @@
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
 #include "osgRayTrace/bridge/update/SceneVersion.h"
+#include "osgRayTrace/bridge/update/ViewMasks.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -22,7 +23,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 
 namespace osgRayTrace::engine
 {
@@ -94,14 +94,11 @@ private:
         unsigned int frameNumber = 0; ///< frame in which the camera was last seen
         unsigned int othersSince = 0; ///< passes of other cameras since the last of this one
         std::optional<ViewingConditions> conditions;
-        std::set<unsigned int> masks; ///< traversal masks of the passes of the frame maskFrame
-        std::set<unsigned int> masksBefore; ///< those of the frame before
-        unsigned int maskFrame = 0;
+        ViewMasks masks;
         Requests asked{true, false, {}, ConversionCause::None};
     };
 
-    void recordMask(unsigned int mask, unsigned int frameNumber);
-    std::optional<ViewingConditions> takeRecorded();
+    std::optional<ViewingConditions> takeRecorded(const osg::FrameStamp* frameStamp);
     void takeSettings(const RayTraceSettings& settings);
     void convertIfChanged(osg::Node* root, ViewingConditions conditions,
                           const osg::FrameStamp* frameStamp);

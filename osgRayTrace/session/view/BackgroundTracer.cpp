@@ -325,6 +325,20 @@ void BackgroundTracer::stop()
     _worker->stop();
 }
 
+void BackgroundTracer::forget()
+{
+    stop();
+    std::shared_ptr<const TraceRequest> wanted; // freed without the lock
+    TracedImage newest;
+    {
+        std::lock_guard<std::mutex> lock(_worker->mutex);
+        wanted.swap(_worker->wanted);
+        std::swap(newest, _worker->newest);
+        _worker->report = TraceReport();
+    }
+    lease()->forget();
+}
+
 bool BackgroundTracer::isWorking() const
 {
     std::lock_guard<std::mutex> lock(_worker->mutex);

@@ -104,6 +104,10 @@ public:
     /// wait.
     void stop();
 
+    /// Stops, and lets go of the tracer's image and of all requests with their scenes, as soon as
+    /// the worker has ended its step. The view's draw thread calls it.
+    void forget();
+
     /// Returns true unless the worker sleeps or has ended. Any thread may call it.
     bool isWorking() const;
 

@@ -90,6 +90,9 @@ public:
     /// resolved again.
     void forgetDisplay();
 
+    /// Lets go of the image and of all inputs: the next trace() begins as the first one does.
+    void forget();
+
     /// Records that the frame that trace() began is on its way to the display.
     void recordPresented();
 

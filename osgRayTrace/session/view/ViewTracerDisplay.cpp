@@ -83,4 +83,20 @@ void ViewTracer::forgetDisplay()
     _resolved.reset();
 }
 
+void ViewTracer::forget()
+{
+    const ThreadSeam::Entry inside(_seam);
+    if (!_workers) return;
+    _stages.reset(_workers);
+    _reducedStages.reset(_workers);
+    _workers.reset();
+    _session.reset();
+    _reduced.reset();
+    _scene.reset();
+    _displayState = DisplayState::Whole;
+    _status = {};
+    _holdsFull = false;
+    _resolved.reset();
+}
+
 } // namespace osgRayTrace::engine
