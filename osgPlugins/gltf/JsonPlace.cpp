@@ -3,6 +3,7 @@
 #include "osgPlugins/gltf/JsonPlace.h"
 
 #include "osgPlugins/gltf/GltfError.h"
+#include "osgRayTrace/base/NeverDestroyed.h"
 
 #include <nlohmann/json.hpp>
 
@@ -50,8 +51,8 @@ std::shared_ptr<const Json> parseJson(const std::string& text)
 
 JsonPlace JsonPlace::empty()
 {
-    static const Json none = Json::object();
-    return JsonPlace(none);
+    static const engine::NeverDestroyed<Json> none(Json::object());
+    return JsonPlace(*none);
 }
 
 std::optional<JsonPlace> JsonPlace::find(const char* name) const
