@@ -70,7 +70,7 @@ inline std::string base64(const std::string& bytes)
 template <typename T> std::string bytesOf(const std::vector<T>& values)
 {
     std::string bytes(values.size() * sizeof(T), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
     return bytes;
 }
 
