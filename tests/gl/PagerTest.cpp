@@ -127,6 +127,14 @@ struct PagedView
         pager().setTargetMaximumNumberOfPageLOD(kTarget);
     }
 
+    /// Joins the threads of the pager, which OSG ends without joining them.
+    ~PagedView()
+    {
+        pager().cancel();
+        for (unsigned int i = 0; i < pager().getNumDatabaseThreads(); ++i)
+            pager().getDatabaseThread(i)->join();
+    }
+
     osgDB::DatabasePager& pager() { return *viewer.viewer.getDatabasePager(); }
 
     /// Draws until the pages stay the same, and returns their names.
