@@ -28,6 +28,14 @@ std::string messageOf(const Json::exception& error)
     return end == std::string::npos ? text : text.substr(end + 2);
 }
 
+/// Returns what an empty place refers to. It owns no memory, which would be lost each time the
+/// plugin is unloaded.
+const Json& nothing()
+{
+    static const engine::NeverDestroyed<Json> null;
+    return *null;
+}
+
 } // namespace
 
 std::shared_ptr<const Json> parseJson(const std::string& text)
@@ -51,12 +59,12 @@ std::shared_ptr<const Json> parseJson(const std::string& text)
 
 JsonPlace JsonPlace::empty()
 {
-    static const engine::NeverDestroyed<Json> none(Json::object());
-    return JsonPlace(*none);
+    return JsonPlace(nothing());
 }
 
 std::optional<JsonPlace> JsonPlace::find(const char* name) const
 {
+    if (_value == &nothing()) return std::nullopt;
     if (!_value->is_object()) refuse("is no object");
     const auto member = _value->find(name);
     if (member == _value->end()) return std::nullopt;

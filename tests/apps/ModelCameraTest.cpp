@@ -37,6 +37,7 @@ TEST_CASE("osgraytrace --camera looks as the model's camera does", "[apps]")
     writeModel(folder);
     // Y up has become Z up: the camera is at (1, -10, 1).
     const Outcome own = osgraytrace(folder, "model.gltf -o own.exr --camera lens" + kQuick);
+    INFO(own.errors);
     CHECK(own.exitCode == 0);
     CHECK(own.errors.empty()); // the cameras draw nothing, so nothing is left out
     CHECK(osgraytrace(folder, "model.gltf -o given.exr --eye 1 -10 1 --center 1 0 1 --up 0 0 1 "
