@@ -26,6 +26,8 @@ endif()
 if(OSGRAYTRACE_SANITIZE)
     # Sanitized code cannot run in the resolvers of function clones, which the loader calls first.
     target_compile_definitions(osgRayTraceBuild INTERFACE OSGRAYTRACE_NO_CLONES)
+    # A sanitizer names functions and lines; a debugger's full information would cost a quarter of the build.
+    target_compile_options(osgRayTraceBuild INTERFACE $<$<CONFIG:RelWithDebInfo>:-g1>)
 endif()
 # Debug and sanitized builds check assertions; others only if they are asked to.
 target_compile_definitions(osgRayTraceBuild INTERFACE

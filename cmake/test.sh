@@ -57,7 +57,7 @@ for preset in "$@"; do
         check release
         ;;
     asan)
-        build asan
+        build asan sanitized
         check asan -L 'unit|gl|fuzz'
         ;;
     tsan)
