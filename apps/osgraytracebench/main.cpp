@@ -69,6 +69,31 @@ int runRows(const std::function<void(Rows&)>& measure, const std::string& json,
 /// Runs a mode once its options are read, which the function owns.
 using Run = std::function<int()>;
 
+/// Adds an option of a number from least to most.
+template <class Number, class Bound>
+void addNumber(CLI::App& mode, const std::string& name, Number& value, Bound least, Bound most,
+               const std::string& description)
+{
+    mode.add_option(name, value, description)
+        ->check(CLI::Range(least, most))
+        ->capture_default_str();
+}
+
+/// Adds the options of the views that the interactive modes show.
+template <class Options> void addViewSize(CLI::App& mode, Options& options)
+{
+    addNumber(mode, "--width", options.width, 16, 8192, "width of the view [pixels]");
+    addNumber(mode, "--height", options.height, 16, 8192, "height of the view [pixels]");
+}
+
+/// Adds the option by which times are those of the processor.
+template <class Options> void addCpuClock(CLI::App& mode, Options& options)
+{
+    mode.add_flag("--cpu-clock", options.cpuClock,
+                  "time by what the process takes of its cores, over its threads: as on a machine "
+                  "of its own");
+}
+
 std::shared_ptr<std::string> addJson(CLI::App& mode)
 {
     auto json = std::make_shared<std::string>();
@@ -96,30 +121,20 @@ Run addPhotons(CLI::App& mode)
 {
     const auto json = addJson(mode);
     const auto options = std::make_shared<PhotonsOptions>();
-    mode.add_option("--width", options->width,
-                    "width and height of the pictures [pixels]; 0: none are made")
-        ->check(CLI::Range(0, 4096))
-        ->capture_default_str();
-    mode.add_option("--longest", options->longest, "longest budget of a picture [s]")
-        ->check(CLI::Range(0.125, 86400.0))
-        ->capture_default_str();
-    mode.add_option("--seeds", options->seeds, "pictures of each method")
-        ->check(CLI::Range(1, 64))
-        ->capture_default_str();
-    mode.add_option("--reference-seconds", options->referenceSeconds,
-                    "time for each reference that is rendered [s]")
-        ->check(CLI::Range(1.0, 86400.0))
-        ->capture_default_str();
+    addNumber(mode, "--width", options->width, 0, 4096,
+              "width and height of the pictures [pixels]; 0: none are made");
+    addNumber(mode, "--longest", options->longest, 0.125, 86400.0,
+              "longest budget of a picture [s]");
+    addNumber(mode, "--seeds", options->seeds, 1, 64, "pictures of each method");
+    addNumber(mode, "--reference-seconds", options->referenceSeconds, 1.0, 86400.0,
+              "time for each reference that is rendered [s]");
     mode.add_option("--reference-a", options->referenceA,
                     "linear picture of the diffuse box; rendered if not given");
     mode.add_option("--reference-b", options->referenceB, "of the box with a mirror");
     mode.add_option("--reference-c", options->referenceC, "of the box with a glass sphere");
-    mode.add_option("--runs", options->runs, "timings of each rate, of which the median counts")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str();
-    mode.add_option("--photons", options->photons, "photons of look-ups")
-        ->check(CLI::Range(1000, 10000000))
-        ->capture_default_str();
+    addNumber(mode, "--runs", options->runs, 1, 1000,
+              "timings of each rate, of which the median counts");
+    addNumber(mode, "--photons", options->photons, 1000, 10000000, "photons of look-ups");
     mode.add_option("--only", options->only, "parts whose name holds this: lookup, tracing, error");
     return [=] { return runRows([&](Rows& rows) { measurePhotons(*options, rows); }, *json); };
 }
@@ -143,18 +158,10 @@ Run addInteractive(CLI::App& mode)
 {
     const auto json = addJson(mode);
     const auto options = std::make_shared<InteractiveOptions>();
-    mode.add_option("--width", options->width, "width of the view [pixels]")
-        ->check(CLI::Range(16, 8192))
-        ->capture_default_str();
-    mode.add_option("--height", options->height, "height of the view [pixels]")
-        ->check(CLI::Range(16, 8192))
-        ->capture_default_str();
-    mode.add_option("--threads", options->threads, "threads to trace with; 0: all of the machine")
-        ->check(CLI::Range(0, 1024))
-        ->capture_default_str();
-    mode.add_flag("--cpu-clock", options->cpuClock,
-                  "time by what the process takes of its cores, over its threads: as on a machine "
-                  "of its own");
+    addViewSize(mode, *options);
+    addNumber(mode, "--threads", options->threads, 0, 1024,
+              "threads to trace with; 0: all of the machine");
+    addCpuClock(mode, *options);
     mode.add_option("--only", options->only,
                     "scenes whose name holds this: Cornell box, triangles, instances");
     return [=] { return runRows([&](Rows& rows) { measureInteractive(*options, rows); }, *json); };
@@ -164,25 +171,12 @@ Run addMoving(CLI::App& mode)
 {
     const auto json = addJson(mode);
     const auto options = std::make_shared<MovingOptions>();
-    mode.add_option("--width", options->width, "width of the view [pixels]")
-        ->check(CLI::Range(16, 8192))
-        ->capture_default_str();
-    mode.add_option("--height", options->height, "height of the view [pixels]")
-        ->check(CLI::Range(16, 8192))
-        ->capture_default_str();
-    mode.add_option("--threads", options->threads, "threads to trace with")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    mode.add_option("--budget", options->budget, "budget of a frame [ms]")
-        ->check(CLI::Range(0.1, 10000.0))
-        ->capture_default_str();
-    mode.add_flag("--cpu-clock", options->cpuClock,
-                  "time by what the process takes of its cores, over its threads: as on a machine "
-                  "of its own");
-    mode.add_option("--references", options->references,
-                    "passes of the pictures that frames are compared with")
-        ->check(CLI::Range(1, 1 << 20))
-        ->capture_default_str();
+    addViewSize(mode, *options);
+    addNumber(mode, "--threads", options->threads, 1, 1024, "threads to trace with");
+    addNumber(mode, "--budget", options->budget, 0.1, 10000.0, "budget of a frame [ms]");
+    addCpuClock(mode, *options);
+    addNumber(mode, "--references", options->references, 1, 1 << 20,
+              "passes of the pictures that frames are compared with");
     mode.add_flag_callback(
         "--path", [options] { options->integrator = engine::IntegratorKind::Path; },
         "trace paths, where whitted would do");
@@ -202,14 +196,10 @@ Run addReproject(CLI::App& mode)
 {
     const auto json = addJson(mode);
     const auto options = std::make_shared<ReprojectOptions>();
-    mode.add_option("--width", options->width,
-                    "width of the pictures whose error is measured [pixels]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    mode.add_option("--references", options->references,
-                    "passes of the pictures that they are compared with")
-        ->check(CLI::Range(1, 1 << 20))
-        ->capture_default_str();
+    addNumber(mode, "--width", options->width, 16, 4096,
+              "width of the pictures whose error is measured [pixels]");
+    addNumber(mode, "--references", options->references, 1, 1 << 20,
+              "passes of the pictures that they are compared with");
     mode.add_option("--pictures", options->pictures, "write the last frames to this folder");
     mode.add_flag("!--no-costs", options->costs, "leave the frames of 1920 x 1080 out");
     return [=]
@@ -223,16 +213,10 @@ Run addTraffic(CLI::App& mode)
 {
     const auto json = addJson(mode);
     const auto options = std::make_shared<TrafficOptions>();
-    mode.add_option("--width", options->width, "width of the pictures [pixels]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    mode.add_option("--references", options->references,
-                    "passes of the pictures that they are compared with")
-        ->check(CLI::Range(1, 1 << 20))
-        ->capture_default_str();
-    mode.add_option("--frames", options->frames, "frames of each town")
-        ->check(CLI::Range(8, 1 << 16))
-        ->capture_default_str();
+    addNumber(mode, "--width", options->width, 16, 4096, "width of the pictures [pixels]");
+    addNumber(mode, "--references", options->references, 1, 1 << 20,
+              "passes of the pictures that they are compared with");
+    addNumber(mode, "--frames", options->frames, 8, 1 << 16, "frames of each town");
     mode.add_option("--pictures", options->pictures, "write the last frames to this folder");
     return [=] {
         return runRows([&](Rows& rows) { measureTraffic(*options, rows); }, *json,
@@ -248,9 +232,8 @@ Run addReport(CLI::App& mode)
     mode.add_flag("--quick", options->quick,
                   "count passes, not seconds, and check what came out: minutes; ends with 5 if a "
                   "check fails");
-    mode.add_option("--longest", options->longest, "longest budget of a picture [s]")
-        ->check(CLI::Range(0.125, 86400.0))
-        ->capture_default_str();
+    addNumber(mode, "--longest", options->longest, 0.125, 86400.0,
+              "longest budget of a picture [s]");
     mode.add_option("--width", options->width, "width of the pictures [pixels]; 0: 128, quick 32")
         ->check(CLI::Range(0, 4096));
     mode.add_option("--only", options->only,
@@ -275,10 +258,8 @@ Run addCompare(CLI::App& mode)
     const auto options = std::make_shared<Options>();
     mode.add_option("BEFORE", options->before, "report.json")->required();
     mode.add_option("AFTER", options->after, "report.json")->required();
-    mode.add_option("--false-alarms", options->falseAlarmRate,
-                    "probability that chance alone makes a change")
-        ->check(CLI::Range(1e-9, 0.5))
-        ->capture_default_str();
+    addNumber(mode, "--false-alarms", options->falseAlarmRate, 1e-9, 0.5,
+              "probability that chance alone makes a change");
     mode.footer("Ends with 0 if no row changed by more than its noise, 1 if one did, 2 if the "
                 "files cannot be compared.");
     return [=] { return runCompare(options->before, options->after, options->falseAlarmRate); };
