@@ -270,6 +270,7 @@ TEST_CASE("a signal ends the viewer's pictures, which are written")
         RunningProgram program(folder / ".",
                                {OSGRAYTRACE_TEST_PROGRAM, "--cave", "cube.xml", "--max-passes",
                                 "16777216", "--output", "w.png", "shell.osgt"});
+        REQUIRE(program.handles(SIGTERM));
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);

@@ -126,6 +126,7 @@ TEST_CASE("bench photons: a signal leaves the rows that were measured", "[apps]"
         RunningProgram program(folder / ".",
                                {OSGRAYTRACE_TEST_PROGRAM, "photons", "--width", "0", "--json",
                                 "rows.json", "--runs", "50", "--photons", "20000"});
+        REQUIRE(program.handles(SIGTERM));
         std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
         program.signal(SIGTERM);
         CHECK(program.wait() == 143);
@@ -145,6 +146,7 @@ TEST_CASE("bench photons: a signal ends a row of minutes between two of its runs
     const TemporaryFolder folder;
     RunningProgram program(folder / ".", {OSGRAYTRACE_TEST_PROGRAM, "photons", "--only", "lookup",
                                           "--runs", "1000", "--photons", "1000000"});
+    REQUIRE(program.handles(SIGTERM));
     std::this_thread::sleep_for(std::chrono::seconds(2));
     program.signal(SIGTERM);
     const bool ended = program.prints("osgraytracebench: SIGTERM: ");

@@ -10,9 +10,13 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 class RunningProgram
@@ -23,6 +27,7 @@ public:
     RunningProgram(const std::string& folder, std::vector<std::string> arguments,
                    const std::vector<std::string>& environment = {})
     {
+        _file = std::filesystem::canonical(arguments[0]);
         _process = forkpty(&_terminal, nullptr, nullptr, nullptr);
         if (_process != 0) return;
         std::vector<char*> pointers;
@@ -53,6 +58,15 @@ public:
         return isThere();
     }
 
+    /// Returns false if the program does not handle the signal within a minute.
+    bool handles(int number) const
+    {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (!handlesNow(number) && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return handlesNow(number);
+    }
+
     void signal(int number) { kill(_process, number); }
 
     /// Returns the exit code, or minus the signal that ended the program.
@@ -72,6 +86,21 @@ public:
     const std::string& printed() const { return _printed; }
 
 private:
+    bool handlesNow(int number) const
+    {
+        // Until it becomes the program, the child process has the handlers of its parent.
+        const std::string process = "/proc/" + std::to_string(_process);
+        std::error_code error;
+        if (std::filesystem::read_symlink(process + "/exe", error) != _file) return false;
+        std::ifstream status(process + "/status");
+        std::string word;
+        while (status >> word)
+            if (word == "SigCgt:") break;
+        std::uint64_t handled = 0;
+        status >> std::hex >> handled;
+        return (handled >> (number - 1) & 1) != 0;
+    }
+
     bool readSome()
     {
         pollfd events{_terminal, POLLIN, 0};
@@ -83,6 +112,7 @@ private:
         return true;
     }
 
+    std::filesystem::path _file;
     int _terminal = -1;
     pid_t _process = -1;
     bool _ended = false;
