@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <mutex>
 
 namespace osgRayTrace::engine
 {
@@ -66,6 +67,7 @@ std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
 
 void CoatAlbedo::makeRow(int row)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     if (_made[static_cast<std::size_t>(row)]) return;
     constexpr int kSteps = kCoatSteps, kFine = 4; // kFine: steps between two nodes
     const double roughness = double(row) / kRoughnessSteps;
@@ -110,14 +112,14 @@ void CoatAlbedo::makeRow(int row)
 void CoatAlbedo::prepare(float roughness)
 {
     const int row = static_cast<int>(roughness * kRoughnessSteps);
-    const std::lock_guard<std::mutex> lock(_mutex);
+    const std::lock_guard<CheckedMutex> lock(_mutex);
     makeRow(std::min(row, kRoughnessSteps - 1));
     makeRow(std::min(row, kRoughnessSteps - 1) + 1);
 }
 
 void CoatAlbedo::prepareAll()
 {
-    const std::lock_guard<std::mutex> lock(_mutex);
+    const std::lock_guard<CheckedMutex> lock(_mutex);
     for (int row = 0; row <= kRoughnessSteps; ++row)
         makeRow(row);
 }

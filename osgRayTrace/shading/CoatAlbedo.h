@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <array>
 #include <cmath>
 #include <memory>
-#include <mutex>
 
 namespace osgRayTrace::engine
 {
@@ -67,7 +67,7 @@ private:
     void makeRow(int row);
 
     float _eta;
-    std::mutex _mutex; ///< held while rows are made
+    CheckedMutex _mutex; ///< held while rows are made
     std::array<CoatAlbedoRow, kRoughnessSteps + 1> _rows;
     std::array<bool, kRoughnessSteps + 1> _made{};
 };

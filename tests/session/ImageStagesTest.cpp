@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/session/CentredPass.h"
 
 #include "osgRayTrace/session/upsample/Upsample.h"
 #include "osgRayTrace/session/view/ImageStages.h"
@@ -25,19 +26,6 @@ enum class Traced
     All,
 };
 
-/// Renders the first pass of a reduced image.
-void renderReduced(RenderSession& session, const View& view)
-{
-    RenderOptions options = optionsOf(IntegratorKind::Whitted);
-    options.centredFirstPass = true;
-    session.setScene(cornellBox().build());
-    session.setView(view);
-    session.setOptions(options);
-    StopRule rule;
-    rule.passes = 1;
-    REQUIRE(session.render(rule).status.ok());
-}
-
 /// Holds a reduced image, and stages whose clock says that upsampling took a given time.
 struct Enlarged
 {
@@ -47,7 +35,7 @@ struct Enlarged
             perspectiveView({278, 278, 20}, {278, 250, 559}, {0, 1, 0}, 50.0, kWidth, kHeight);
         view.width /= kDivider;
         view.height /= kDivider;
-        renderReduced(session, view);
+        renderCentredPass(session, cornellBox().build(), view);
         linear = expected(0.0);
         all = expected(kAllTraced);
         around = expected(1.0);
@@ -76,7 +64,7 @@ struct Enlarged
     {
         View view = perspectiveView({278, 278, -900}, {278, 250, -2000}, {0, 1, 0}, 50.0, 8, 8);
         RenderSession blank(workers);
-        renderReduced(blank, view);
+        renderCentredPass(blank, cornellBox().build(), view);
         std::vector<uint8_t> rgba(4 * 16 * 16);
         for (int i = 0; i < pictures; ++i)
         {

@@ -3,6 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
+#include "tests/session/CentredPass.h"
 
 #include "osgRayTrace/session/upsample/Upsample.h"
 
@@ -21,21 +22,6 @@ View frontView()
     return perspectiveView({0, 0, 6}, {0, 0, 0}, {0, 1, 0}, 50.0, kWidth, kHeight);
 }
 
-/// Returns the image of one pass through the middles of the pixels.
-ResolvedImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
-                      const View& view)
-{
-    RenderOptions options = optionsOf(IntegratorKind::Whitted);
-    options.centredFirstPass = true;
-    session.setScene(scene);
-    session.setView(view);
-    session.setOptions(options);
-    StopRule rule;
-    rule.passes = 1;
-    REQUIRE(session.render(rule).status.ok());
-    return session.resolvedImage();
-}
-
 struct Compared
 {
     ResolvedImage image, reference;
@@ -47,11 +33,11 @@ Compared upsampled(const std::shared_ptr<const TracedScene>& scene, int divider,
 {
     RenderSession session(std::make_shared<Workers>(threads));
     Compared result;
-    result.reference = imageOf(session, scene, frontView());
+    result.reference = centredImage(session, scene, frontView());
     View smaller = frontView();
     smaller.width /= divider;
     smaller.height /= divider;
-    const ResolvedImage small = imageOf(session, scene, smaller);
+    const ResolvedImage small = centredImage(session, scene, smaller);
     result.counts = session.upsample(small, session.surfaceSamples(), kWidth, kHeight, result.image,
                                      kAllTraced);
     REQUIRE(result.image.radiance.size() == result.reference.radiance.size());
@@ -232,7 +218,7 @@ TEST_CASE("upsampled colours: what samples record is the albedo of the first hit
     }
     builder.scene->lights.push_back(sun());
     RenderSession session(std::make_shared<Workers>(1));
-    imageOf(session, builder.build(), frontView());
+    centredImage(session, builder.build(), frontView());
     const std::vector<float> albedos = session.resolveChannel(Channel::Albedo);
     const std::vector<SurfaceSample>& samples = session.surfaceSamples();
     int hits = 0, wrong = 0;

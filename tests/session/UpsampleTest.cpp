@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/session/CentredPass.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -21,20 +22,6 @@ struct Upsampled
     ResolvedImage reference; ///< of full size, through the middles of the pixels
 };
 
-ResolvedImage imageOf(RenderSession& session, const std::shared_ptr<const TracedScene>& scene,
-                      const View& view)
-{
-    RenderOptions options = optionsOf(IntegratorKind::Whitted);
-    options.centredFirstPass = true;
-    session.setScene(scene);
-    session.setView(view);
-    session.setOptions(options);
-    StopRule rule;
-    rule.passes = 1;
-    REQUIRE(session.render(rule).status.ok());
-    return session.resolvedImage();
-}
-
 /// Upsamples an image that has one pixel for divider x divider pixels, and one for the rest at the
 /// sides.
 Upsampled upsampled(const std::shared_ptr<const TracedScene>& scene, const View& view, int divider,
@@ -45,8 +32,8 @@ Upsampled upsampled(const std::shared_ptr<const TracedScene>& scene, const View&
     smaller.width = (view.width + divider - 1) / divider;
     smaller.height = (view.height + divider - 1) / divider;
     RenderSession session(std::make_shared<Workers>(threads));
-    result.reference = imageOf(session, scene, view);
-    result.small = imageOf(session, scene, smaller);
+    result.reference = centredImage(session, scene, view);
+    result.small = centredImage(session, scene, smaller);
     result.samples = session.surfaceSamples();
     result.counts =
         session.upsample(result.small, result.samples, view.width, view.height, result.image);
@@ -332,7 +319,7 @@ TEST_CASE("upsampling: with too many edges less is traced, and nothing is black"
     smaller.width = 40;
     smaller.height = 30;
     RenderSession session(std::make_shared<Workers>(2));
-    const ResolvedImage small = imageOf(session, builder.build(), smaller);
+    const ResolvedImage small = centredImage(session, builder.build(), smaller);
     const std::vector<SurfaceSample> samples = session.surfaceSamples();
     std::vector<uint64_t> traced;
     for (const double most : {1.0, 0.55, 0.1})
@@ -428,7 +415,7 @@ TEST_CASE("upsampling: threads make no difference, nor does what the vectors hel
     View smaller = cornellView(150, 130);
     smaller.width = 50;
     smaller.height = 44;
-    imageOf(session, scene, smaller);
+    centredImage(session, scene, smaller);
     ResolvedImage again;
     again.radiance.assign(4 * 150 * 130, NAN);
     again.depth.assign(150 * 130, NAN);

@@ -17,8 +17,8 @@ namespace osgRayTrace::engine
 
 /// Looks for hits with the surfaces of one traced scene. Rays find the triangles in float. The
 /// place on the triangle, and its distance, are then computed in double from the geometry's own
-/// vertices and the present transforms, as osgUtil does. Only one thread may use a picker;
-/// std::bad_alloc may be thrown.
+/// vertices and the present transforms, as osgUtil does. Only one thread may use a picker,
+/// which lives for one intersection; std::bad_alloc may be thrown.
 class ScenePicker
 {
 public:

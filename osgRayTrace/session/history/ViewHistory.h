@@ -35,7 +35,7 @@ ViewDependence viewDependence(const Scene& scene);
 /// A history belongs to one set of options, and sessions that keep the surfaces of their samples.
 /// Whoever renders calls leave and enter only if nothing but the view or its size changes, keep if
 /// nothing but the scene does, and drop if anything else does. A history is not thread safe; each
-/// session has its own.
+/// session has its own, in ImageStages, which assert that one thread at a time is inside.
 class ViewHistory
 {
 public:

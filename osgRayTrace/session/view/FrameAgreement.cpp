@@ -71,7 +71,7 @@ FrameAgreement::~FrameAgreement() = default;
 std::shared_ptr<FrameAgreement::Member> FrameAgreement::join()
 {
     const std::shared_ptr<Member> member(new Member);
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     const auto gone = [](const std::weak_ptr<Member>& weak) { return weak.expired(); };
     _members.erase(std::remove_if(_members.begin(), _members.end(), gone), _members.end());
     _members.push_back(member);
@@ -81,6 +81,7 @@ std::shared_ptr<FrameAgreement::Member> FrameAgreement::join()
 /// Charges each of the views at work an equal share of the time since the last charge.
 void FrameAgreement::charge(double now)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     std::vector<std::shared_ptr<Member>> tracing;
     for (const std::weak_ptr<Member>& weak : _members)
         if (std::shared_ptr<Member> member = weak.lock(); member && member->tracing)
@@ -92,6 +93,7 @@ void FrameAgreement::charge(double now)
 
 std::vector<std::shared_ptr<FrameAgreement::Member>> FrameAgreement::activeMembers()
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     std::vector<std::shared_ptr<Member>> active;
     for (const std::weak_ptr<Member>& weak : _members)
         if (std::shared_ptr<Member> member = weak.lock();
@@ -103,6 +105,7 @@ std::vector<std::shared_ptr<FrameAgreement::Member>> FrameAgreement::activeMembe
 /// Returns the frame as it has been decided, or a new one.
 FrameAgreement::Frame& FrameAgreement::frameFor(Member& member, const AgreedFrame& frame)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     for (auto decided = _frames.rbegin(); decided != _frames.rend(); ++decided)
     {
         const bool same =
@@ -129,7 +132,7 @@ FrameAgreement::Frame& FrameAgreement::frameFor(Member& member, const AgreedFram
 FrameAgreement::Part FrameAgreement::begin(Member& member, const AgreedFrame& frame, int width,
                                            int height, bool moved, double now)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     Frame& decided = frameFor(member, frame);
     charge(now);
     member.width = width;
@@ -153,6 +156,7 @@ FrameAgreement::Part FrameAgreement::begin(Member& member, const AgreedFrame& fr
 /// Returns the member's frame, or null if that frame is long ago.
 FrameAgreement::Frame* FrameAgreement::frameOf(const Member& member)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     const auto isIts = [&](const Frame& frame) { return frame.count == member.frame; };
     const auto found = std::find_if(_frames.begin(), _frames.end(), isIts);
     return found == _frames.end() ? nullptr : &*found;
@@ -160,7 +164,7 @@ FrameAgreement::Frame* FrameAgreement::frameOf(const Member& member)
 
 FrameWork FrameAgreement::giveUp(Member& member, const TracedPart& traced)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     member.costs.record(1, traced.full.tiles, traced.full.seconds);
     member.costs.record(2, traced.reduced.tiles, traced.reduced.seconds);
     member.costs.expectReduced();
@@ -179,13 +183,13 @@ FrameWork FrameAgreement::giveUp(Member& member, const TracedPart& traced)
 
 void FrameAgreement::cutShort(Member& member, int passes)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     if (Frame* frame = frameOf(member)) frame->work.passes = std::min(frame->work.passes, passes);
 }
 
 void FrameAgreement::end(Member& member, const TracedPart& traced, double now)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     if (!member.tracing) return;
     charge(now);
     member.tracing = false;
@@ -215,19 +219,20 @@ void FrameAgreement::end(Member& member, const TracedPart& traced, double now)
 
 std::optional<FrameWork> FrameAgreement::offer(double seconds, bool degrade)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     if (activeMembers().empty()) return std::nullopt;
     return plan(seconds, degrade);
 }
 
 void FrameAgreement::impose(const std::optional<FrameWork>& work)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
+    std::lock_guard<CheckedMutex> lock(_mutex);
     _imposed = work;
 }
 
 FrameWork FrameAgreement::plan(double seconds, bool degrade)
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     FrameWork work;
     if (!degrade) work.divider = 1;
     std::vector<std::shared_ptr<Member>> views = activeMembers();
@@ -273,6 +278,7 @@ FrameWork FrameAgreement::plan(double seconds, bool degrade)
 /// ended in the last frame. Photons of a pass are traced once, before any of the pass's tiles.
 int FrameAgreement::progressWithin(double seconds, double passSeconds) const
 {
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
     constexpr double kWhole = FrameWork::kWholePass;
     const int last = _frames.empty() ? 0 : _frames.back().progress % FrameWork::kWholePass;
     double progress = 0.0, left = seconds;

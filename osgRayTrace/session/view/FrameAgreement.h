@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/session/view/FramePlan.h"
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -133,7 +133,7 @@ private:
     FrameWork plan(double seconds, bool degrade);
     int progressWithin(double seconds, double passSeconds) const;
 
-    std::mutex _mutex; // draw threads and whoever decides lock it; it guards all members below
+    CheckedMutex _mutex; // draw threads and whoever decides lock it; it guards all members below
     std::vector<std::weak_ptr<Member>> _members;
     std::vector<Frame> _frames; ///< the last frames, the newest at the end
     uint64_t _frameCount = 0;

@@ -91,7 +91,8 @@ private:
 /// into each frame with room for error, and holds the resolution: it becomes coarser as soon as a
 /// pass no longer fits, and finer if one has fitted with more than room to spare for a while. The
 /// time that is left goes to more passes. A view that rests has its full resolution. The planner
-/// knows no clock: all times are told. One thread at a time may use it.
+/// knows no clock: all times are told. One thread at a time may use it, which the ViewTracer that
+/// owns it asserts.
 class FramePlanner
 {
 public:

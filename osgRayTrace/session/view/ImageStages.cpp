@@ -44,6 +44,7 @@ double edgesWithin(const UpsampleCounts& counts, double mostTraced)
 
 void ImageStages::reset(std::shared_ptr<Workers> workers)
 {
+    const ThreadSeam::Entry inside(_seam);
     _workers = std::move(workers);
     _upsampleSeconds = kUpsampleSeconds / _workers->threads();
     _edgeSeconds = kEdgeSeconds / _workers->threads();
@@ -56,6 +57,7 @@ void ImageStages::reset(std::shared_ptr<Workers> workers)
 
 bool ImageStages::keepView(RenderSession& session, const ImageInputs& next)
 {
+    const ThreadSeam::Entry inside(_seam);
     constexpr int kPause = 30;
     if (_isKeeping) return true;
     const std::shared_ptr<const TracedScene> before = _imageScene.lock();
@@ -86,6 +88,7 @@ bool ImageStages::keepView(RenderSession& session, const ImageInputs& next)
 
 void ImageStages::forgetKept()
 {
+    const ThreadSeam::Entry inside(_seam);
     _history.drop();
     _isKeeping = false;
     _versionsKept = 0;
@@ -94,6 +97,7 @@ void ImageStages::forgetKept()
 
 void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 {
+    const ThreadSeam::Entry inside(_seam);
     if (keepView(session, next)) return;
     const bool sameScene = _imageScene.lock() == next.scene;
     const bool rests = sameScene && next.view == _imageView && _history.isKept();
@@ -117,6 +121,7 @@ void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
                             const RenderProgress& result)
 {
+    const ThreadSeam::Entry inside(_seam);
     const bool kept = _isKeeping;
     _isKeeping = false;
     session.setContinuesView(false);
@@ -148,12 +153,14 @@ ResolvedImage ImageStages::staged(const RenderSession& session)
 
 std::vector<float> ImageStages::radiance(const RenderSession& session)
 {
+    const ThreadSeam::Entry inside(_seam);
     return changes(session) ? staged(session).radiance : session.resolveRadiance();
 }
 
 void ImageStages::show(const RenderSession& session, const ToneMap& toneMap, uint8_t* rgba,
                        float* depth)
 {
+    const ThreadSeam::Entry inside(_seam);
     _upsampleSeconds *= kForgets;
     forgetEdges();
     if (denoises())
@@ -174,6 +181,7 @@ void ImageStages::forgetEdges()
 void ImageStages::presentUpsampled(const RenderSession& session, int width, int height,
                                    const DisplayTarget& display, double seconds)
 {
+    const ThreadSeam::Entry inside(_seam);
     const double pixels = static_cast<double>(width) * height;
     const double plain = kUpsampleSeconds / _workers->threads();
     const double affordable = std::max(0.0, seconds / pixels - plain) / _edgeSeconds;

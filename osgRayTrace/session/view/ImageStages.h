@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/ThreadSeam.h"
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/denoise/Denoiser.h"
 #include "osgRayTrace/session/history/ViewHistory.h"
@@ -24,7 +25,7 @@ struct ImageInputs
 };
 
 /// ImageStages applies the history of earlier views, the denoiser and upsampling, in this order,
-/// for one session. One thread at a time may use it.
+/// for one session. One thread at a time may use it, and with it the history and the denoiser.
 class ImageStages
 {
 public:
@@ -103,6 +104,7 @@ private:
     ResolvedImage staged(const RenderSession& session);
     void forgetEdges();
 
+    ThreadSeam _seam; ///< checks the functions that change the stages
     std::function<double()> _now;
     std::shared_ptr<Workers> _workers;
 

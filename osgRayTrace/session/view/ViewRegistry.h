@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/session/view/DepthSlices.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <iterator>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -68,7 +68,7 @@ public:
     void record(const PassIdentity& pass)
     {
         if (!depthPlanes(pass.view)) return;
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::lock_guard<CheckedMutex> lock(_mutex);
         const auto recorded =
             std::find_if(_recorded.begin(), _recorded.end(),
                          [&](const PassIdentity& n)
@@ -83,7 +83,7 @@ public:
     /// Returns the state of the pass; for a new view make() makes the state. Draw threads call it.
     template <class Make> Pass acquire(const PassIdentity& pass, Make make)
     {
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::lock_guard<CheckedMutex> lock(_mutex);
         const std::size_t eye = eyeOf(pass);
         if (Entry* shown = findPresented(pass))
         {
@@ -116,7 +116,7 @@ public:
     void forgetContext(unsigned int contextId)
     {
         std::vector<Entry> gone; // the entries are destroyed without the lock
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::lock_guard<CheckedMutex> lock(_mutex);
         const auto others =
             std::partition(_entries.begin(), _entries.end(),
                            [&](const Entry& entry) { return entry.pass.contextId != contextId; });
@@ -132,7 +132,7 @@ public:
     /// Returns all states. Any thread may call it.
     std::vector<std::shared_ptr<State>> states() const
     {
-        std::lock_guard<std::mutex> lock(_mutex);
+        std::lock_guard<CheckedMutex> lock(_mutex);
         std::vector<std::shared_ptr<State>> result;
         for (const Entry& entry : _entries)
             result.push_back(entry.state);
@@ -174,6 +174,7 @@ private:
 
     std::size_t eyeOf(const PassIdentity& pass)
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         auto frame = std::find_if(_frames.begin(), _frames.end(),
                                   [&](const CameraFrame& f) { return sameCamera(f.pass, pass); });
         if (frame == _frames.end()) frame = _frames.insert(frame, CameraFrame{pass, _round, {}});
@@ -191,6 +192,7 @@ private:
     /// Finds the view that another slice of the pass's picture has drawn in this frame.
     Entry* findPresented(const PassIdentity& pass)
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         if (!depthPlanes(pass.view)) return nullptr;
         for (Entry& entry : _entries)
         {
@@ -208,6 +210,7 @@ private:
     /// those of the last frame if there were more, as cull may come after draw.
     std::vector<View> allSlices(const Entry& entry, const PassIdentity& pass) const
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         std::vector<View> slices = {pass.view};
         if (!depthPlanes(pass.view)) return slices;
         const auto add = [&](const View& view)
@@ -236,6 +239,7 @@ private:
     /// Counts how often the view has drawn the scene in this frame, each time from another place.
     std::size_t timesDrawn(const PassIdentity& pass, std::size_t eye) const
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         std::size_t times = 0;
         for (const Entry& entry : _entries)
             times += sameView(entry, pass, eye) && sameFrame(entry.pass, pass);
@@ -269,6 +273,7 @@ private:
     /// the last kMostSingles - 1 stay.
     void forgetSingles(const PassIdentity& pass)
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         const auto single = [&](const Entry& entry)
         { return !entry.again && entry.pass.contextId == pass.contextId; };
         const auto count = std::count_if(_entries.begin(), _entries.end(), single);
@@ -285,12 +290,13 @@ private:
 
     void expire()
     {
+        OSGRAYTRACE_ASSERT(_mutex.isHeld());
         const auto old = [this](const auto& item) { return item.round + kExpiry < _round; };
         _entries.erase(std::remove_if(_entries.begin(), _entries.end(), old), _entries.end());
         _frames.erase(std::remove_if(_frames.begin(), _frames.end(), old), _frames.end());
     }
 
-    mutable std::mutex
+    mutable CheckedMutex
         _mutex; // draw, cull and releaseGLObjects lock it, on any thread; it guards all below
     std::vector<Entry> _entries;
     std::vector<CameraFrame> _frames;
