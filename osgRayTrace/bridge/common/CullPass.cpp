@@ -16,7 +16,8 @@ std::shared_ptr<CullPass> cullPass(osgUtil::CullVisitor& visitor, std::shared_pt
     auto pass = std::make_shared<CullPass>();
     pass->original = &visitor;
     pass->visitor = visitor.clone();
-    pass->isClone = pass->visitor && typeid(*pass->visitor) == typeid(visitor);
+    const osgUtil::CullVisitor* clone = pass->visitor.get();
+    pass->isClone = clone && typeid(*clone) == typeid(visitor);
     osgUtil::RenderStage* stage = visitor.getCurrentRenderStage();
     pass->camera = stage ? stage->getCamera() : nullptr;
     pass->view = visitor.getRenderInfo().getView();
