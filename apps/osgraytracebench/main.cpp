@@ -107,14 +107,24 @@ template <void (*measure)(Rows&)> Run addRows(CLI::App& mode)
     return [json = addJson(mode)] { return runRows(measure, *json); };
 }
 
-Run addLimit(CLI::App& mode)
+/// A mode of parts with names. parts: some of them.
+template <void (*measure)(const std::string&, Rows&)>
+Run addParts(CLI::App& mode, const std::string& parts)
 {
     const auto json = addJson(mode);
     const auto only = std::make_shared<std::string>();
-    mode.add_option("--only", *only,
-                    "parts whose name holds this: box 1920x1080, sphere 640x360, 1 M triangles, "
-                    "...");
-    return [=] { return runRows([&](Rows& rows) { measureLimit(*only, rows); }, *json); };
+    mode.add_option("--only", *only, "parts whose name holds this: " + parts + ", ...");
+    return [=] { return runRows([&](Rows& rows) { measure(*only, rows); }, *json); };
+}
+
+Run addLimit(CLI::App& mode)
+{
+    return addParts<measureLimit>(mode, "box 1920x1080, sphere 640x360, 1 M triangles");
+}
+
+Run addFeatures(CLI::App& mode)
+{
+    return addParts<measureFeatures>(mode, "textures, alpha, proxy, captures");
 }
 
 Run addPhotons(CLI::App& mode)
@@ -272,8 +282,7 @@ public:
     CommandLine()
     {
         add("limit", "a whole frame, a path traced one and a build against Embree alone", addLimit);
-        add("features", "what features cost a scene that does not use them",
-            addRows<measureFeatures>);
+        add("features", "what features cost a scene that does not use them", addFeatures);
         add("photons", "photon maps against a plain grid and Embree alone; error against time",
             addPhotons);
         add("update", "what edits of a large live scene cost, against Embree alone",

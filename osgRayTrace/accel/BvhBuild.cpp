@@ -102,6 +102,7 @@ std::shared_ptr<StaticBvh> buildStatic(const std::shared_ptr<EmbreeDevice>& devi
     {
         const GeometryHandle triangles =
             newTriangles(device->handle(), *member.mesh, member.filtered);
+        if (member.hidden) rtcSetGeometryMask(triangles.get(), kHiddenMask);
         rtcCommitGeometry(triangles.get());
         rtcAttachGeometryByID(built->scene.get(), triangles.get(), member.instance);
     }

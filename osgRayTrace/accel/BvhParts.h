@@ -49,6 +49,7 @@ struct StaticBvh
         uint32_t instance = 0;
         const Mesh* mesh = nullptr;
         bool filtered = false; ///< as in MeshBvh
+        bool hidden = false;   ///< whether camera rays pass it
     };
     using Members = std::vector<Member>;
 

@@ -33,6 +33,10 @@ using RayQueryContext = RTCRayQueryContext;
 using RayQueryContext = RTCIntersectContext;
 #endif
 
+/// The masks of rays and geometries: a ray tests a geometry if the masks have a bit in common. A
+/// geometry that is not hidden has at least the bit of the camera's rays.
+constexpr uint32_t kCameraMask = 1u, kHiddenMask = 2u, kOtherMask = 0xffffffffu;
+
 /// The context of a query, which its filters are handed.
 struct FilterContext : RayQueryContext
 {

@@ -84,6 +84,13 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     return chance(c) < opacity;
 }
 
+bool needsFilter(const MaterialRecord& record)
+{
+    const Material& material = *record.material;
+    const bool transparent = material.blended || material.alphaTest != AlphaTest::Always;
+    return record.partial && (transparent || !isHiddenFromCamera(material));
+}
+
 void setHitFilter(void* geometry)
 {
     rtcSetGeometryIntersectFilterFunction(static_cast<RTCGeometry>(geometry), filter);

@@ -13,6 +13,9 @@ struct HitRule
     bool fromLight =
         false;          ///< the ray goes as light does: it meets faces of which one side is culled
     bool solid = false; ///< every surface is hit, even if it is transparent or culled
+
+    /// Returns true if the ray passes what is hidden from the camera: see isHiddenFromCamera.
+    constexpr bool passesHidden() const { return culls && !solid; }
 };
 constexpr HitRule kCameraRays{true, false, false, false};
 constexpr HitRule kPhotonRays{false, false, true, false};

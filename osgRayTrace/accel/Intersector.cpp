@@ -4,8 +4,10 @@
 
 #include "osgRayTrace/accel/Embree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace osgRayTrace::engine
 {
@@ -136,7 +138,12 @@ void occludePackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>&
     }
 }
 
-RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
+uint32_t maskOfRays(HitRule rule)
+{
+    return rule.passesHidden() ? kCameraMask : kOtherMask;
+}
+
+RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar, HitRule rule = {})
 {
     RTCRay ray;
     ray.org_x = origin.x;
@@ -148,17 +155,17 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar)
     ray.dir_z = direction.z;
     ray.time = 0.0f;
     ray.tfar = tFar;
-    ray.mask = 0xffffffffu;
+    ray.mask = maskOfRays(rule);
     ray.id = 0;
     ray.flags = 0;
     return ray;
 }
 
-RTCRay singleRay(const RayBlock& block, int lane)
+RTCRay singleRay(const RayBlock& block, int lane, HitRule rule = {})
 {
     return singleRay(Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
                      Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
-                     block.tNear[lane], block.tFar[lane]);
+                     block.tNear[lane], block.tFar[lane], rule);
 }
 
 } // namespace
@@ -184,6 +191,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
                         Coherence coherence, HitRule rule) const
 {
     const auto scene = static_cast<RTCScene>(_scene);
+    std::fill(std::begin(block.ray.mask.v), std::end(block.ray.mask.v), maskOfRays(rule));
     QueryArguments arguments(coherence == Coherence::Coherent, _filter, rule);
     const bool packets =
         coherence == Coherence::Coherent || (_nativeWidth == 16 && !areFew(active));
@@ -195,7 +203,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
     {
         if (!valid[i]) continue;
         RTCRayHit single;
-        single.ray = singleRay(block.ray, i);
+        single.ray = singleRay(block.ray, i, rule);
         single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         arguments.intersect(scene, &single);
@@ -244,7 +252,7 @@ std::optional<Hit> Intersector::closestHit(Vec3 origin, Vec3 direction, float tN
 {
     if (!traceable(_reach, plainOf(origin), plainOf(direction), tNear, tFar)) return std::nullopt;
     RTCRayHit single;
-    single.ray = singleRay(origin, direction, tNear, tFar);
+    single.ray = singleRay(origin, direction, tNear, tFar, rule);
     single.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     single.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryArguments query(false, _filter, rule);

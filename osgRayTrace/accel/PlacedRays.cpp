@@ -108,6 +108,8 @@ template <class Arguments> OSGRAYTRACE_INLINE void tracePlaced(const Arguments* 
 {
     const PlacedScene& placed =
         (*static_cast<const PlacedScenes*>(args->geometryUserPtr))[args->primID];
+    if (placed.hidden && static_cast<const FilterContext*>(args->context)->rule.passesHidden())
+        return;
     if (placed.instance == kInvalid) return traceWidth<InPlace>(args, placed);
     args->context->instID[0] = placed.instance;
     traceWidth<InSpaceOfScene>(args, placed);

@@ -92,6 +92,7 @@ void PlacedScenes::put(std::size_t i, const Placement& placement)
     PlacedScene& placed = _scenes[i];
     placed.scene = placement.scene;
     placed.instance = placement.engineFromLocal ? placement.instance : kInvalid;
+    placed.hidden = placement.hidden;
     const Affine m = placement.engineFromLocal ? inverse(*placement.engineFromLocal) : Affine();
     std::memcpy(placed.localFromEngine, &m.linear, 9 * sizeof(float));
     std::memcpy(placed.localFromEngine + 9, &m.translation, 3 * sizeof(float));

@@ -54,9 +54,10 @@ struct MaterialPart
 bool serves(const StaticBvh::Members& has, const StaticBvh::Members& wanted)
 {
     return std::equal(has.begin(), has.end(), wanted.begin(), wanted.end(),
-                      [](const StaticBvh::Member& a, const StaticBvh::Member& b) {
+                      [](const StaticBvh::Member& a, const StaticBvh::Member& b)
+                      {
                           return a.instance == b.instance && a.mesh == b.mesh &&
-                                 (a.filtered || !b.filtered);
+                                 a.hidden == b.hidden && (a.filtered || !b.filtered);
                       });
 }
 
@@ -80,6 +81,7 @@ struct TracedScene::Implementation
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
     std::vector<bool> attached; ///< by instance: part of Embree's scenes
+    std::vector<bool> hidden;   ///< by instance: camera rays pass it
     BuildStatistics statistics;
 
     bool sameMeshes = false; ///< same instances of the same meshes as before
@@ -132,10 +134,12 @@ void TracedScene::Implementation::findAttached()
     for (std::size_t i = 0; i < invisible.size(); ++i)
         invisible[i] = isInvisible(scene->materials[i]);
     attached.resize(scene->instances.size());
+    hidden.resize(scene->instances.size());
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
         if (surfaces.isEmpty(instance.mesh) || invisible[instance.material]) continue;
+        hidden[i] = isHiddenFromCamera(scene->materials[instance.material]);
         const bool invalid = instance.placed && reaches[i] == 0.0f;
         if (invalid) ++statistics.invalidInstances;
         attached[i] = !invalid;
@@ -146,7 +150,7 @@ void TracedScene::Implementation::findAttached()
 /// lights. Returns true if they do. A mesh that calls the filter without need does no harm.
 bool TracedScene::Implementation::takeStructures(const Implementation* old)
 {
-    if (!samePlaces || attached != old->attached) return false;
+    if (!samePlaces || attached != old->attached || hidden != old->hidden) return false;
     if (filtered.size() != old->filtered.size()) return false;
     for (std::size_t i = 0; i < filtered.size(); ++i)
         if (filtered[i] && !old->filtered[i]) return false;
@@ -233,8 +237,8 @@ void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCount
         if (attached[i] && !scene->instances[i].placed)
         {
             const uint32_t mesh = scene->instances[i].mesh;
-            members.push_back(
-                {static_cast<uint32_t>(i), scene->meshes[mesh].get(), bool(filtered[mesh])});
+            members.push_back({static_cast<uint32_t>(i), scene->meshes[mesh].get(),
+                               bool(filtered[mesh]), bool(hidden[i])});
         }
     if (old && old->staticBvh && serves(old->staticBvh->members, members))
     {
@@ -262,7 +266,9 @@ void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildC
         placement.outline = meshBvh.outline ? &*meshBvh.outline : nullptr;
         placement.engineFromLocal = &instance.engineFromLocal;
         placement.instance = static_cast<uint32_t>(i);
-        placement.hash = hashOf(meshBvh.serial, placement.instance, instance.engineFromLocal);
+        placement.hidden = hidden[i];
+        placement.hash = hashOf(meshBvh.serial, placement.instance, instance.engineFromLocal) +
+                         uint64_t(placement.hidden);
         placements.push_back(placement);
     }
     if (placements.empty() && staticBvh) return;
@@ -308,7 +314,7 @@ void TracedScene::Implementation::findFiltered()
 {
     filtered.resize(scene->meshes.size());
     for (const Instance& instance : scene->instances)
-        if (materials->table[instance.material].partial) filtered[instance.mesh] = true;
+        if (needsFilter(materials->table[instance.material])) filtered[instance.mesh] = true;
 }
 
 TracedScene::TracedScene() : _implementation(std::make_unique<Implementation>()) {}

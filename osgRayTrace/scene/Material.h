@@ -262,6 +262,12 @@ inline bool isInvisible(const Material& m)
            m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid && !m.detail;
 }
 
+/// Returns true if camera rays pass both sides of the surface, which other rays meet.
+inline bool isHiddenFromCamera(const Material& m)
+{
+    return m.culling == FaceCulling::FrontAndBack && !m.cullsAllRays;
+}
+
 enum class TextureWrap : uint8_t
 {
     Repeat,

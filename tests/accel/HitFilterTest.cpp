@@ -186,6 +186,49 @@ TEST_CASE("filter: camera rays pass culled faces, other rays meet them unless to
             }
 }
 
+TEST_CASE("filter: what is hidden from the camera stops all other rays, whatever is edited",
+          "[accel]")
+{
+    // A second instance of the mesh, which the rays do not meet, is never hidden.
+    for (const bool placed : {false, true})
+        for (const float alpha : {1.0f, 0.5f})
+        {
+            CAPTURE(placed, alpha);
+            SceneBuilder builder;
+            builder.add(paneAt(0.0f), alpha < 1.0f ? blendedMaterial(alpha) : Material());
+            Instance instance = builder.scene->instances.front();
+            instance.placed = placed;
+            Instance other = instance;
+            other.material = static_cast<uint32_t>(builder.scene->materials.size());
+            builder.scene->materials.push_back(Material());
+            other.placed = true;
+            other.engineFromLocal.translation = Vec3(5.0f, 0.0f, 0.0f);
+            builder.scene->instances = {instance, other};
+
+            const auto workers = std::make_shared<Workers>(1);
+            std::shared_ptr<const TracedScene> traced;
+            for (const bool hidden : {true, false, true})
+            {
+                auto edited = std::make_shared<Scene>(*builder.scene);
+                edited->materials[instance.material].culling =
+                    hidden ? FaceCulling::FrontAndBack : FaceCulling::None;
+                traced = TracedScene::build(edited, workers, traced);
+                const Stopped camera = stopped(*traced, kCameraRays);
+                CAPTURE(hidden);
+                CHECK(isShare(camera.packets, hidden ? 0.0 : alpha));
+                CHECK(isShare(camera.single, alpha)); // rays of no camera
+                CHECK(isShare(camera.packetsOccluded, alpha));
+                CHECK(isShare(camera.singleOccluded, alpha));
+                HitRule solid = kCameraRays;
+                solid.solid = true;
+                CHECK(stopped(*traced, solid).packets == kRays);
+                CHECK(traced->intersector()
+                          .closestHit({5.0f, 0.0f, 1.0f}, {0, 0, -1}, 0.0f, kInfinity, kCameraRays)
+                          .has_value());
+            }
+        }
+}
+
 TEST_CASE("filter: rays that keep blended surfaces meet them all, but not what cannot be seen",
           "[accel]")
 {

@@ -133,13 +133,14 @@ void measurePair(const ScenePair& pair, bool hasGoal, Rows& rows)
 
 } // namespace
 
-void measureFeatures(Rows& rows)
+void measureFeatures(const std::string& only, Rows& rows)
 {
+    const auto isAsked = [&](const std::string& name) { return name.find(only) != name.npos; };
     for (const ScenePair& pair : unusedFeatures(kSize))
-        measurePair(pair, true, rows);
+        if (isAsked(pair.name)) measurePair(pair, true, rows);
     for (const ScenePair& pair : generalWays(kSize))
-        measurePair(pair, false, rows);
-    measureUnusedContent(rows);
+        if (isAsked(pair.name)) measurePair(pair, false, rows);
+    if (isAsked("captures")) measureUnusedContent(rows);
 }
 
 } // namespace osgRayTrace::bench

@@ -4,6 +4,8 @@
 
 #include "apps/osgraytracebench/Rows.h"
 
+#include <string>
+
 namespace osgRayTrace::bench
 {
 
@@ -13,7 +15,8 @@ namespace osgRayTrace::bench
 /// rows tell the gain of the specialised paths: the same picture is rendered in the general way.
 /// Instances and lights are among these rows, because they take part in every ray's way wherever
 /// they are. The rows on proxies tell what rays cost that pass a block which OSG would draw, and
-/// the last ones what captures cost updates of a scene without such content.
-void measureFeatures(Rows& rows);
+/// the last ones what captures cost updates of a scene without such content. Only features whose
+/// name holds this text are measured.
+void measureFeatures(const std::string& only, Rows& rows);
 
 } // namespace osgRayTrace::bench
