@@ -158,6 +158,10 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                  "Prints what was ray traced, approximated and left out, and where; needs no -o");
     app.add_flag("--names", options.names,
                  "Prints the names in the models that a file for --materials can use; needs no -o");
+    app.add_option("--write-materials", options.writtenMaterials,
+                   "Writes the materials of the models as a file for --materials to edit; needs no "
+                   "-o, renders nothing")
+        ->option_text("FILE.json");
     app.add_option(
            "--context", raw.context,
            "none, osmesa, egl; with OpenGL, OSG draws what rays do not: text, lines, shaders")
@@ -201,7 +205,8 @@ void applyPasses(const CLI::App& app, Options& options)
 void check(const Options& options)
 {
     if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
-    if (options.outputs.empty() && !options.report && !options.names)
+    const bool lists = options.names || !options.writtenMaterials.empty();
+    if (options.outputs.empty() && !options.report && !lists)
         throw Failure(kUsage, "no -o FILE given; --help shows the options");
     if (options.width < 1 || options.height < 1 ||
         double(options.width) * options.height > kMaxPixels)

@@ -44,6 +44,7 @@ struct Options
     bool report = false;
     Context context = Context::None;
     bool listOptions = false;
+    std::string writtenMaterials; ///< file for the models' materials; empty: none is written
     bool names = false; ///< true: the names of the models are printed, and nothing is rendered
     osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
 

@@ -17,6 +17,8 @@
 #include "apps/common/SceneNames.h"
 #include "apps/common/StoredScene.h"
 
+#include <osgRayTrace/MaterialFile>
+
 #include <osgGA/EventVisitor>
 #include <osgViewer/Viewer>
 
@@ -196,6 +198,19 @@ int run(Options options)
     return written != kDone ? written : code;
 }
 
+/// Writes the materials of the models as a file to edit.
+void writeMaterials(const Options& options)
+{
+    checkOutputs({{"--write-materials", options.writtenMaterials}});
+    const MaterialFile file = materialFileOf(*readScene(options.models));
+    writeText(options.writtenMaterials, file.text);
+    std::cout << options.writtenMaterials << ": " << file.entries << " entries" << std::endl;
+    if (file.nameless > 0)
+        std::cerr << "osgraytrace: " << file.nameless
+                  << " geometries are in no entry: neither material nor texture nor a node of "
+                     "theirs alone has a name\n";
+}
+
 int runCommandLine(int argc, char** argv)
 {
     const std::optional<Options> options = parseOptions(argc, argv);
@@ -209,6 +224,11 @@ int runCommandLine(int argc, char** argv)
     if (options->names)
     {
         std::cout << namesOf(*readScene(options->models)) << std::flush;
+        return kDone;
+    }
+    if (!options->writtenMaterials.empty())
+    {
+        writeMaterials(*options);
         return kDone;
     }
     return run(*options);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/SurfaceAttributes.h"
 
+#include <cmath>
+
 namespace osgRayTrace::engine
 {
 
@@ -69,6 +71,30 @@ MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord&
     point.direction = direction;
     if (material.generated) setGenerated(record, primitive, u, v, point);
     return point;
+}
+
+float textureScale(const SurfaceRecord& record, const Vec2* uvs, uint32_t primitive)
+{
+    if (!uvs) return 0.0f;
+    const UVec3 t = record.triangles[primitive];
+    Vec3 b = record.positions[t.y] - record.positions[t.x],
+         c = record.positions[t.z] - record.positions[t.x];
+    if (record.placed)
+    {
+        b = record.placed->engineFromLocal.linear * b;
+        c = record.placed->engineFromLocal.linear * c;
+    }
+    const Vec2 p = uvs[t.y] - uvs[t.x], q = uvs[t.z] - uvs[t.x];
+    const float ratio = std::fabs(p.x * q.y - p.y * q.x) / glm::length(glm::cross(b, c));
+    return ratio < kInfinity ? std::sqrt(ratio) : 0.0f;
+}
+
+void setTextureWidths(const SurfaceRecord& record, uint32_t primitive, float footprint,
+                      MaterialPoint& point)
+{
+    point.footprint = footprint;
+    point.uvWidth = footprint * textureScale(record, record.uvs, primitive);
+    point.uv1Width = footprint * textureScale(record, record.uvs1, primitive);
 }
 
 } // namespace osgRayTrace::engine

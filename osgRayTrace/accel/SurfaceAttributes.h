@@ -13,6 +13,15 @@ namespace osgRayTrace::engine
 MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord& material,
                               uint32_t primitive, float u, float v, bool front, Vec3 direction);
 
+/// Returns the square root of a triangle's area in texture coordinates over its area in engine
+/// space: 1 / length. 0 if it has no coordinates or no area.
+float textureScale(const SurfaceRecord& record, const Vec2* uvs, uint32_t primitive);
+
+/// Sets the widths of a footprint in texture coordinates. footprint: width on the surface [engine
+/// units].
+void setTextureWidths(const SurfaceRecord& record, uint32_t primitive, float footprint,
+                      MaterialPoint& point);
+
 /// Returns the texture coordinates of unit 0 at a hit, zero if the mesh has none.
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v);
 

@@ -297,6 +297,10 @@ struct Texture
     TextureWrap wrapS = TextureWrap::Repeat;
     TextureWrap wrapT = TextureWrap::Repeat;
     TextureWrap wrapR = TextureWrap::Repeat; ///< 3-D images only
+    /// The image in half the width and height, in a quarter, and so on down to one texel, with the
+    /// filter of minified images; empty: footprints are not filtered. Only of 2-D images.
+    std::vector<Texture> mips;
+    bool blendsMips = true; ///< false: a look-up reads one of the mips alone
     Stamp changed = 0;
 };
 

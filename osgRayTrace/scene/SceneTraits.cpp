@@ -60,6 +60,8 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
         }
     for (const Material& material : scene.materials)
         addMaterial(material, traits);
+    for (const std::shared_ptr<const Texture>& texture : scene.textures)
+        traits.mipmaps |= traits.textures && !texture->mips.empty();
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)

@@ -12,6 +12,7 @@ struct SceneTraits
     bool instances = false;     ///< some instance is placed by a transform
     bool smoothNormals = false; ///< some mesh has vertex normals
     bool textures = false;
+    bool mipmaps = false; ///< some material looks a texture with mips up: see RayCones.h
     bool vertexColors = false;
     bool blended = false;       ///< some surface lets light through by its alpha
     bool fixedFunction = false; ///< some material is FixedFunction

@@ -6,6 +6,7 @@
 #include "osgRayTrace/integrators/shared/SurfaceSample.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -151,6 +152,7 @@ PassContext SessionState::contextOfPass(int pass) const
     const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
     const int paths = sharesPaths ? sharedPaths(pass) : pass;
     context.pathKey = passKey(filmSeed, paths);
+    context.coneScale = 1.0f / std::sqrt(static_cast<float>(paths + 1));
     context.wantsDepth = pass == 0;
     context.throughCentres = filmCentred || (filmOptions.centredFirstPass && paths == 0);
     return context;

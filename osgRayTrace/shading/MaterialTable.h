@@ -8,6 +8,7 @@
 #include "osgRayTrace/shading/Bsdf.h"
 #include "osgRayTrace/shading/TextureCoordinates.h"
 
+#include <cmath>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -35,6 +36,7 @@ struct MaterialRecord
     bool generated =
         false; ///< true: texture coordinates need the point's position, normal and direction
     bool partial = false;   ///< true: some rays pass the surface: see opacity and Material::culling
+    bool mipmapped = false; ///< true: looks textures with mips up: see setTextureWidths
     bool normalMap = false; ///< true: a texture decides on the shading normals
     bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
     bool absorbs = false;   ///< true: the body below the surface absorbs light
@@ -105,6 +107,7 @@ public:
 
 private:
     bool isPartial(const Material& material) const;
+    bool isMipmapped(const Material& material) const;
     float fixedFunctionAlpha(const Material& material, const MaterialPoint& point) const;
     Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
     Vec4 textureOr(const Material& material, TextureRole role, const MaterialPoint& point) const;
@@ -132,6 +135,13 @@ inline Vec2 placedUv(const TexturePlace& place, const TexturePoint& point)
 {
     const Vec2 uv = place.set == 0 ? point.uv : point.uv1;
     return place.offset + place.u * uv.x + place.v * uv.y;
+}
+
+/// Returns the width of the footprint where a texture of a physical material is looked up.
+inline float placedWidth(const TexturePlace& place, const TexturePoint& point)
+{
+    const float width = place.set == 0 ? point.uvWidth : point.uv1Width;
+    return width * std::sqrt(std::fabs(place.u.x * place.v.y - place.u.y * place.v.x));
 }
 
 /// Returns the colours of the seen face after the vertex colour has replaced those that

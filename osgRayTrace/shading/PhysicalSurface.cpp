@@ -127,8 +127,10 @@ Vec4 MaterialTable::textureOr(const Material& m, TextureRole role, const Materia
 {
     const uint32_t texture = textureOf(m, role);
     if (texture == kInvalid) return Vec4(1.0f);
-    const Vec2 uv = m.detail ? placedUv(m.detail->places[role], point) : point.uv;
-    return sampleTexture(*_scene->textures[texture], uv);
+    if (!m.detail) return sampleTexture(*_scene->textures[texture], point.uv, point.uvWidth);
+    const TexturePlace& place = m.detail->places[role];
+    return sampleTexture(*_scene->textures[texture], placedUv(place, point),
+                         placedWidth(place, point));
 }
 
 } // namespace osgRayTrace::engine

@@ -14,6 +14,10 @@ struct TexturePoint
     Vec2 uv1{0.0f};
     float r = 0.0f, r1 = 0.0f; ///< third coordinates of uv and uv1
 
+    // The footprint is a square with the area that the pixel sees; 0: a point.
+    float footprint = 0.0f;                ///< width [engine units]
+    float uvWidth = 0.0f, uv1Width = 0.0f; ///< widths in uv and uv1
+
     // The following members are unset unless the mapping is generated.
     Vec3 position{0.0f};
     Vec3 normal{0.0f, 0.0f, 1.0f};     ///< unit, the normal of the mesh
@@ -38,5 +42,10 @@ inline bool dependsOnEye(const TextureMapping& mapping)
 /// picture of its mirror image, with the view's own axes as the axes of the map: what one would see
 /// from behind the mirror.
 Vec4 textureCoordinates(const TextureMapping& mapping, const TexturePoint& point);
+
+/// Returns the width of the footprint in the mapping's (s, t), a square with the same area. The
+/// width is 0, that of a point, if it would have to follow q, a direction to the eye or a sum of
+/// generated coordinates and the mesh's.
+float textureWidth(const TextureMapping& mapping, const TexturePoint& point);
 
 } // namespace osgRayTrace::engine

@@ -121,4 +121,30 @@ void textureColors(const Texture& texture, const FloatLanes& s, const FloatLanes
         setLane(color, i, Vec3(sampleTexture(texture, Vec2(s[i], t[i]))));
 }
 
+void textureColors(const Texture& texture, const FloatLanes& s, const FloatLanes& t,
+                   const FloatLanes& widths, LaneMask lanes, Vec3Lanes& color)
+{
+    MipChoice choices[kLanes];
+    for (const int i : lanesIn(lanes))
+        choices[i] = mipFor(texture, widths[i]);
+    for (LaneMask left = lanes; left;)
+    {
+        const int level = choices[firstLane(left)].level;
+        LaneMask same = 0, blended = 0;
+        for (const int i : lanesIn(left))
+        {
+            same |= static_cast<LaneMask>(choices[i].level == level) << i;
+            blended |= static_cast<LaneMask>(choices[i].level == level && choices[i].share > 0.0f)
+                       << i;
+        }
+        left &= ~same;
+        textureColors(levelOf(texture, level), s, t, same, color);
+        if (!blended) continue;
+        Vec3Lanes coarser;
+        textureColors(levelOf(texture, level + 1), s, t, blended, coarser);
+        for (const int i : lanesIn(blended))
+            setLane(color, i, glm::mix(laneOf(color, i), laneOf(coarser, i), choices[i].share));
+    }
+}
+
 } // namespace osgRayTrace::engine

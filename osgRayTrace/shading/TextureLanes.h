@@ -13,4 +13,9 @@ namespace osgRayTrace::engine
 void textureColors(const Texture& texture, const FloatLanes& s, const FloatLanes& t, LaneMask lanes,
                    Vec3Lanes& color);
 
+/// Sets the lanes of color to the texture's colours for footprints of these widths, as
+/// sampleTexture gives them but for rounding.
+void textureColors(const Texture& texture, const FloatLanes& s, const FloatLanes& t,
+                   const FloatLanes& widths, LaneMask lanes, Vec3Lanes& color);
+
 } // namespace osgRayTrace::engine

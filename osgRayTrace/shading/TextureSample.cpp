@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/TextureSample.h"
 
-#include <array>
 #include <cmath>
 
 namespace osgRayTrace::engine
 {
 
-namespace
-{
-
-/// Returns the linear value of each sRGB byte [IEC61966].
 const std::array<float, 256>& decodedBytes()
 {
     static const std::array<float, 256> table = []
@@ -27,6 +22,9 @@ const std::array<float, 256>& decodedBytes()
     }();
     return table;
 }
+
+namespace
+{
 
 /// Returns the texel index in [0, size) of any integer position.
 int wrapped(int i, int size, TextureWrap wrap)
@@ -172,6 +170,33 @@ Vec4 sampleTexture(const Texture& texture, Vec4 coordinates)
     if (texture.depth > 0)
         return sampleVolume(texture, q == 1.0f ? Vec3(coordinates) : Vec3(coordinates) / q);
     return sampleTexture(texture, q == 1.0f ? Vec2(coordinates) : Vec2(coordinates) / q);
+}
+
+MipChoice mipFor(const Texture& texture, float width)
+{
+    if (texture.mips.empty() || !(width > 0.0f)) return {};
+    const float texels = float(texture.width) * float(texture.height);
+    const float lod = 0.5f * std::log2(width * width * texels);
+    if (!(lod > 0.0f)) return {};
+    const int coarsest = static_cast<int>(texture.mips.size());
+    if (lod >= float(coarsest)) return {coarsest, 0.0f};
+    if (!texture.blendsMips) return {static_cast<int>(lod + 0.5f), 0.0f};
+    const int level = static_cast<int>(lod);
+    return {level, lod - float(level)};
+}
+
+Vec4 sampleTexture(const Texture& texture, Vec2 uv, float width)
+{
+    const MipChoice choice = mipFor(texture, width);
+    const Vec4 value = sampleTexture(levelOf(texture, choice.level), uv);
+    if (choice.share == 0.0f) return value;
+    return glm::mix(value, sampleTexture(levelOf(texture, choice.level + 1), uv), choice.share);
+}
+
+Vec4 sampleTexture(const Texture& texture, Vec4 coordinates, float width)
+{
+    if (texture.mips.empty() || !(width > 0.0f)) return sampleTexture(texture, coordinates);
+    return sampleTexture(texture, Vec2(coordinates) / coordinates.w, width);
 }
 
 } // namespace osgRayTrace::engine

@@ -4,6 +4,8 @@
 
 #include "osgRayTrace/scene/Material.h"
 
+#include <array>
+
 namespace osgRayTrace::engine
 {
 
@@ -15,5 +17,33 @@ Vec4 sampleTexture(const Texture& texture, Vec2 uv);
 /// Returns RGBA at (s, t, r, q): of a cube map in the direction (s, t, r), of a 3-D image at (s, t,
 /// r)/q, else at (s, t)/q.
 Vec4 sampleTexture(const Texture& texture, Vec4 coordinates);
+
+/// Tells which mips of a texture a look-up reads.
+struct MipChoice
+{
+    int level = 0;      ///< 0: the image itself, else mips[level - 1]
+    float share = 0.0f; ///< share of the next level
+};
+
+/// Returns the mips for a square footprint of this width [texture coordinates]: texels of their
+/// level are as large as the footprint, by area [OpenGL21, eq. 3.18]. The image itself is taken for
+/// a width of 0 and for textures without mips.
+MipChoice mipFor(const Texture& texture, float width);
+
+/// Returns the image of a level.
+inline const Texture& levelOf(const Texture& texture, int level)
+{
+    return level == 0 ? texture : texture.mips[static_cast<std::size_t>(level - 1)];
+}
+
+/// Returns RGBA at uv as sampleTexture without a width does, but of the mips for the width.
+Vec4 sampleTexture(const Texture& texture, Vec2 uv, float width);
+
+/// Returns RGBA at (s, t, r, q) as sampleTexture without a width does, but of the mips for the
+/// width.
+Vec4 sampleTexture(const Texture& texture, Vec4 coordinates, float width);
+
+/// Returns the linear value of each sRGB byte [IEC61966].
+const std::array<float, 256>& decodedBytes();
 
 } // namespace osgRayTrace::engine

@@ -3,12 +3,15 @@
 #include "tests/Catch.h"
 #include "tests/apps/Program.h"
 
+#include <osgRayTrace/PhysicalMaterial>
+
 #include <nlohmann/json.hpp>
 
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osg/Image>
 #include <osg/Material>
+#include <osg/MatrixTransform>
 #include <osg/Program>
 #include <osg/Texture2D>
 #include <osg/Uniform>
@@ -138,4 +141,86 @@ TEST_CASE("osgraytrace --names: a line for each name that a material file can us
                             "user\t2\tkind\t-\tto\\twn/house\n");
     CHECK(models.fileNames().empty());
     CHECK(osgraytrace(models, "--names").exitCode == 1); // no model
+}
+
+namespace
+{
+
+/// Returns a triangle beside the others, with a material of this name.
+osg::ref_ptr<osg::MatrixTransform> placed(int place, const std::string& material,
+                                          osgRayTrace::PhysicalMaterial* physical)
+{
+    const osg::ref_ptr<osg::Geometry> geometry = strokes(GL_TRIANGLES, "");
+    osg::ref_ptr<osg::Material> own = new osg::Material;
+    own->setName(material);
+    own->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.7f, 0.1f, 0.3f, 1.0f));
+    own->setSpecular(osg::Material::FRONT_AND_BACK, osg::Vec4(0.4f, 0.4f, 0.4f, 1.0f));
+    geometry->getOrCreateStateSet()->setAttribute(own);
+    if (physical) geometry->getOrCreateStateSet()->setAttribute(physical);
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(
+        osg::Matrixd::rotate(1.57, osg::X_AXIS) * osg::Matrixd::translate(1.5 * place, 0.0, 0.0));
+    transform->addChild(geometry);
+    return transform;
+}
+
+osg::ref_ptr<osgRayTrace::PhysicalMaterial> metal(float roughness)
+{
+    osg::ref_ptr<osgRayTrace::PhysicalMaterial> material = new osgRayTrace::PhysicalMaterial;
+    material->setBaseColor(osg::Vec3(0.1f, 0.7f, 1.0f / 3.0f)); // not all are short in decimal
+    material->setMetallic(0.9f);
+    material->setRoughness(roughness);
+    material->setClearcoat(0.3f);
+    return material;
+}
+
+} // namespace
+
+TEST_CASE("osgraytrace --write-materials: used as it is, the file changes no bit", "[apps]")
+{
+    const TemporaryFolder folder, models;
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->setName("town");
+    root->addChild(placed(0, "brick", nullptr));
+    root->addChild(placed(1, "copper", metal(0.35f)));
+    root->addChild(placed(2, "mixed", metal(0.2f)));
+    root->addChild(placed(3, "mixed", metal(0.6f)));
+    const osg::ref_ptr<osg::MatrixTransform> shed = placed(4, "", nullptr);
+    shed->setName("shed \"old\"");
+    root->addChild(shed);
+    root->addChild(placed(5, "", nullptr)); // only below "town", which is above all others
+    REQUIRE(osgDB::writeNodeFile(*root, models / "town.osgb"));
+    const std::string town = "'" + (models / "town.osgb") + "'";
+    const auto picture = [&](const std::string& name, const std::string& more)
+    {
+        const Outcome outcome = osgraytrace(
+            folder, town + " --size 64 32 --passes 2 --integrator path -o " + name + more);
+        CHECK(outcome.exitCode == 0);
+        CHECK(outcome.errors == "");
+        return contents(folder / name);
+    };
+
+    const Outcome written = osgraytrace(folder, town + " --write-materials m.json");
+    CHECK(written.exitCode == 0);
+    CHECK(written.output == "m.json: 4 entries\n");
+    CHECK_THAT(written.errors, Contains("1 geometries are in no entry"));
+    const auto file = nlohmann::json::parse(contents(folder / "m.json"));
+    CHECK(file["materials"]["copper"]["clearcoat"] == 0.3);
+    CHECK(file["materials"]["copper"]["baseColor"][1] == 0.7);
+    CHECK(file["materials"]["brick"]["roughness"] == 1.0);
+    CHECK(file["materials"]["mixed"] == nlohmann::json{{"edits", 1}});
+    CHECK(file["nodes"].size() == 1);
+    CHECK(file["nodes"].contains("shed \"old\""));
+
+    const std::string plain = picture("plain.exr", "");
+    CHECK(picture("unedited.exr", " --materials m.json") == plain);
+    for (const char* name : {"brick", "copper", "mixed", "shed \"old\""})
+    {
+        auto edited = file;
+        auto& group = edited[name[0] == 's' ? "nodes" : "materials"];
+        group[name]["baseColor"] = {0.2, 0.9, 0.1};
+        std::ofstream(folder / "edited.json") << edited;
+        CAPTURE(name);
+        CHECK(picture("edited.exr", " --materials edited.json") != plain);
+    }
+    CHECK(osgraytrace(folder, town + " --write-materials no/such/folder/m.json").exitCode == 4);
 }

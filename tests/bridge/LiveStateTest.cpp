@@ -149,6 +149,21 @@ constexpr auto kOn = osg::StateAttribute::ON;
 
 } // namespace
 
+TEST_CASE("live state: mips of textures that are small in the picture", "[bridge]")
+{
+    StateGraph graph;
+    auto& uvs = static_cast<osg::Vec2Array&>(*graph.geometry(0).getTexCoordArray(0));
+    for (osg::Vec2& uv : uvs)
+        uv *= 40.0f;
+    Watched watched(graph);
+    osg::Texture2D& texture = *graph.textures[0];
+    watched.edit("none",
+                 [&] { texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR); });
+    watched.edit(
+        "blended",
+        [&] { texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR); });
+}
+
 TEST_CASE("live state: texture units", "[bridge]")
 {
     StateGraph graph;

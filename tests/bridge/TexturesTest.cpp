@@ -59,6 +59,46 @@ TEST_CASE("texture unit 0: attribute, mode, filter, wrap and environment", "[bri
     CHECK(result.scene->textures.empty());
 }
 
+TEST_CASE("textures have mips if their minification filter asks for them, and only then",
+          "[bridge]")
+{
+    const auto texture = smallTexture();
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(8, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    std::fill_n(image->data(), image->getTotalSizeInBytes(), 100);
+    texture->setImage(image);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+    const auto geometry = texturedGeometry(texture);
+    SceneConverter converter;
+    struct Expected
+    {
+        osg::Texture::FilterMode filter;
+        std::size_t mips;
+        bool linear, blends;
+    };
+    for (const Expected& expected :
+         {Expected{osg::Texture::LINEAR, 0, true, true},
+          Expected{osg::Texture::LINEAR_MIPMAP_LINEAR, 3, true, true},
+          Expected{osg::Texture::NEAREST_MIPMAP_LINEAR, 3, false, true},
+          Expected{osg::Texture::LINEAR_MIPMAP_NEAREST, 3, true, false},
+          Expected{osg::Texture::NEAREST_MIPMAP_NEAREST, 3, false, false},
+          Expected{osg::Texture::NEAREST, 0, true, true}})
+    {
+        texture->setFilter(osg::Texture::MIN_FILTER, expected.filter); // one converter: a live edit
+        const ConversionResult result = converter.convert(inputFor(geometry));
+        const Texture& converted = *result.scene->textures.at(0);
+        CAPTURE(int(expected.filter));
+        CHECK(converted.linearFilter); // close to, the other filter decides
+        REQUIRE(converted.mips.size() == expected.mips);
+        if (converted.mips.empty()) continue;
+        CHECK(converted.mips[0].width == 4);
+        CHECK(converted.mips[0].height == 1);
+        CHECK(converted.mips[0].bytes[0] == 100);
+        CHECK(converted.mips[0].linearFilter == expected.linear);
+        CHECK(converted.blendsMips == expected.blends);
+    }
+}
+
 TEST_CASE("textures that cannot be sampled are left out and counted", "[bridge]")
 {
     SECTION("no image on the CPU")

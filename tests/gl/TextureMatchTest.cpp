@@ -122,6 +122,29 @@ TEST_CASE("match: wrap modes, with border colour", "[gl][coverage]")
         }
 }
 
+TEST_CASE("match: mips, with one sample a pixel", "[gl][coverage]")
+{
+    constexpr std::pair<const char*, osg::Texture::FilterMode> kFilters[] = {
+        {"linear-linear", osg::Texture::LINEAR_MIPMAP_LINEAR},
+        {"linear-nearest", osg::Texture::LINEAR_MIPMAP_NEAREST},
+        {"nearest-linear", osg::Texture::NEAREST_MIPMAP_LINEAR},
+        {"nearest-nearest", osg::Texture::NEAREST_MIPMAP_NEAREST}};
+    for (const auto& [name, filter] : kFilters)
+    {
+        // Nearly four texels a pixel, and neighbours differ: without mips they would show.
+        const auto geometry = unlit(square(3.0f));
+        auto& coordinates = static_cast<osg::Vec2Array&>(*geometry->getTexCoordArray(0));
+        for (osg::Vec2& c : coordinates)
+            c = c * 0.5f;
+        const auto texture = textureOf(patchwork(512, GL_RGB));
+        texture->setFilter(osg::Texture::MIN_FILTER, filter);
+        geometry->getStateSet()->setTextureAttributeAndModes(0, texture);
+        MatchSetup setup;
+        setup.samples = 1;
+        CHECK(matches(std::string("mips-") + name, geometry, setup));
+    }
+}
+
 TEST_CASE("match: texture matrix, also a projective one", "[gl][coverage]")
 {
     osg::Matrixd matrix = osg::Matrixd::scale(2.0, 3.0, 1.0) *

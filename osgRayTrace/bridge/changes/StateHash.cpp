@@ -175,7 +175,8 @@ void addImage(Hasher& hasher, const osg::Image* image)
 void addTexture(Hasher& hasher, const osg::Texture& texture)
 {
     hasher.add(texture.getWrap(osg::Texture::WRAP_S), texture.getWrap(osg::Texture::WRAP_T),
-               texture.getFilter(osg::Texture::MAG_FILTER), internalFormatOf(texture, nullptr),
+               texture.getFilter(osg::Texture::MAG_FILTER),
+               texture.getFilter(osg::Texture::MIN_FILTER), internalFormatOf(texture, nullptr),
                texture.getInternalFormatMode());
     hasher.add(texture.getWrap(osg::Texture::WRAP_R), isOnlyInOpenGL(texture));
     for (int c = 0; c < 4; ++c)

@@ -8,6 +8,7 @@
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+#include "osgRayTrace/integrators/shared/RayCones.h"
 
 #include <cmath>
 
@@ -108,6 +109,12 @@ void DebugIntegrator::renderTile(const PassContext& context, int left, int botto
         result.counts.cameraRays += kLanes;
         surfacesOf(context.traced->surfaces(), rays, kAllLanes, surface);
         if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, rays, surface);
+        if (context.traced->traits().mipmaps)
+        {
+            ConeLanes cones;
+            cameraCones(context, rays.ray, cones);
+            setFootprints(rays.ray, cones, surface);
+        }
         depthLanes(context.camera, left, bottom, b, surface, along, depth);
         for (int i = 0; i < kLanes; ++i)
         {

@@ -76,6 +76,8 @@ void passMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
     if (traced.traits().panes)
         passPanes(tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
                   tile.counts);
+    if (traced.traits().panes && traced.traits().mipmaps)
+        setFootprints(block.rays.ray, block.cones, bounce.surface);
     if (traced.traits().attenuation)
         attenuate(tile.context, block.rays, bounce.surface, block.throughput);
 }
@@ -99,6 +101,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
                rayStart(tile.context.options));
     const SceneTraits& traits = traced.traits();
     if (traits.normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
+    if (traits.mipmaps) setFootprints(block.rays.ray, block.cones, bounce.surface);
     if (number == 0) // a pane is what is seen first, also by rays that go on behind it
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
                         tile.result.firstHits);
@@ -139,6 +142,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         PathBlock& block = tile.paths.blocks[b];
         cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b,
                        context.throughCentres, block.rays, block.seed);
+        if (context.traced->traits().mipmaps) cameraCones(context, block.rays.ray, block.cones);
         for (int i = 0; i < kLanes; ++i)
         {
             setLane(block.throughput, i, Vec3(1.0f));

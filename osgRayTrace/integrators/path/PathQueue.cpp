@@ -25,6 +25,8 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.etaScale[k] = from.etaScale[i];
     to.seed[k] = from.seed[i];
     to.flags[k] = from.flags[i];
+    to.cones.width[k] = from.cones.width[i];
+    to.cones.spread[k] = from.cones.spread[i];
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/integrators/path/PathFlags.h"
+#include "osgRayTrace/integrators/shared/RayCones.h"
 
 namespace osgRayTrace::engine
 {
@@ -18,6 +19,7 @@ struct PathBlock
     FloatLanes etaScale;  ///< throughput outside of glass over throughput
     UintLanes seed;       ///< seed of the pixel
     UintLanes flags;      ///< words of PathFlags
+    ConeLanes cones;      ///< set in scenes with SceneTraits::mipmaps
     LaneMask active = 0;
 
     PathFlags flagsOf(int lane) const { return PathFlags(flags[lane]); }

@@ -225,6 +225,11 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         block.active &= playRoulette(roulette, survival, throughput);
     }
     spawnRays(block, next, throughput, bounce.gathering, bounce.rough);
+    if (!tile.context.traced->traits().mipmaps) return;
+    LaneMask mirrored = 0;
+    for (const int i : lanesIn(block.active))
+        mirrored |= static_cast<LaneMask>(!(next.pdfW[i] < kInfinity)) << i;
+    moveCones(block.rays.ray, mirrored, block.cones);
 }
 
 } // namespace osgRayTrace::engine

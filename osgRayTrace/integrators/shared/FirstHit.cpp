@@ -6,6 +6,7 @@
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/RayCones.h"
 #include "osgRayTrace/integrators/shared/SeenColors.h"
 
 #include <algorithm>
@@ -137,6 +138,12 @@ void traceCentres(const PassContext& context, int left, int bottom, int block, H
                last);
     if (context.traced->traits().normalMaps)
         applyNormalMaps(*context.traced, hits.rays, hits.surface);
+    if (context.traced->traits().mipmaps)
+    {
+        ConeLanes cones;
+        cameraCones(context, hits.rays.ray, cones);
+        setFootprints(hits.rays.ray, cones, hits.surface);
+    }
     facingNormalLanes(hits.rays.ray, hits.surface, hits.normal);
 }
 

@@ -25,6 +25,9 @@ MaterialPoint materialPoint(const PassContext& context, const RayHitBlock& rays,
         materialPointOf(context.traced->surfaces()[surface.instance[i]], material,
                         rays.primitive[i], rays.u[i], rays.v[i], front, direction);
     if (material.generated) point.eyeFromEngine = context.eyeFromEngine;
+    if (material.mipmapped && ((surface.coned >> i) & 1u))
+        setTextureWidths(context.traced->surfaces()[surface.instance[i]], rays.primitive[i],
+                         surface.footprint[i], point);
     return point;
 }
 

@@ -27,6 +27,7 @@ struct PassContext
     RenderOptions options;                ///< options with the chosen integrator, never Automatic
     PassKey key;
     PassKey pathKey;             ///< key of camera paths; for PPM that of sharedPaths()
+    float coneScale = 1.0f;      ///< width of ray cones over that of pixels: see RayCones.h
     bool wantsDepth = true;      ///< true in the first pass: first hits are recorded
     bool throughCentres = false; ///< true: camera rays are those of firstHits
 

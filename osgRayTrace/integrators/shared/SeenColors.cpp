@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/SeenColors.h"
 
+#include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/shading/TextureLanes.h"
 
 #include <algorithm>
@@ -120,9 +121,44 @@ void finishColors(const Vec3Lanes& texels, bool textured, Vec3Lanes& colors)
     }
 }
 
+/// Sets the widths of the lanes' footprints in the texture coordinates of unit 0.
+void textureWidths(const SurfaceRecord& record, const RayHitBlock& rays,
+                   const SurfaceLanes& surface, LaneMask lanes, FloatLanes& widths)
+{
+    uint32_t known = kInvalid;
+    float scale = 0.0f;
+    for (const int i : lanesIn(lanes))
+    {
+        if (rays.primitive[i] != known)
+        {
+            known = rays.primitive[i];
+            scale = textureScale(record, record.uvs, known);
+        }
+        widths[i] = scale * surface.footprint[i];
+    }
+}
+
+/// Sets the texture's colours in the lanes, which hit one instance.
+void texelColors(const SurfaceRecord& record, const Texture& texture, const RayHitBlock& rays,
+                 const SurfaceLanes& surface, LaneMask lanes, Vec3Lanes& texels)
+{
+    Vec3Lanes uv;
+    const Vec2* uvs = record.uvs;
+    interpolate(
+        record, rays, lanes, [&](uint32_t k) { return uvs ? Vec3(uvs[k], 0.0f) : Vec3(0.0f); }, uv);
+    if (texture.mips.empty() || (lanes & ~surface.coned))
+    {
+        textureColors(texture, uv.x, uv.y, lanes, texels);
+        return;
+    }
+    FloatLanes widths;
+    textureWidths(record, rays, surface, lanes, widths);
+    textureColors(texture, uv.x, uv.y, widths, lanes, texels);
+}
+
 /// Returns the colours of the lanes, which hit one instance.
 void sourceColors(const SurfaceRecord& record, const ColorSource& source, const RayHitBlock& rays,
-                  LaneMask lanes, Vec3Lanes& colors)
+                  const SurfaceLanes& surface, LaneMask lanes, Vec3Lanes& colors)
 {
     if (source.atVertices && record.colors && !source.replaced)
         interpolate(
@@ -134,15 +170,7 @@ void sourceColors(const SurfaceRecord& record, const ColorSource& source, const 
             setLane(colors, i, factor);
     }
     Vec3Lanes texels;
-    if (source.texture)
-    {
-        Vec3Lanes uv;
-        const Vec2* uvs = record.uvs;
-        interpolate(
-            record, rays, lanes, [&](uint32_t k) { return uvs ? Vec3(uvs[k], 0.0f) : Vec3(0.0f); },
-            uv);
-        textureColors(*source.texture, uv.x, uv.y, lanes, texels);
-    }
+    if (source.texture) texelColors(record, *source.texture, rays, surface, lanes, texels);
     finishColors(texels, source.texture != nullptr, colors);
 }
 
@@ -195,7 +223,8 @@ void instanceColors(const PassContext& context, const RayHitBlock& rays,
     else if (source.known)
     {
         Vec3Lanes own;
-        sourceColors(context.traced->surfaces()[surface.instance[first]], source, rays, lanes, own);
+        sourceColors(context.traced->surfaces()[surface.instance[first]], source, rays, surface,
+                     lanes, own);
         for (const int i : lanesIn(lanes))
             setLane(colors, i, plainOf(own, i));
     }

@@ -138,7 +138,8 @@ void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, V
     const float largest = std::max(weight.x, std::max(weight.y, weight.z));
     if (!(largest * etaScale >= kSmallestWeight)) return;
     tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale,
-                          block.pixel[i], hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1});
+                          block.pixel[i], hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1,
+                          coneOf(tile, block, i)});
 }
 
 void spawn(WhittedTile& tile, const ShadingBlock& block)
@@ -206,6 +207,7 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
                               block.pixel[i],
                               hash(block.seed[i] + 0x85ebca6bu),
                               block.depth[i],
+                              coneOf(tile, block, i),
                               fromCamera,
                               block.layers[i] + 1});
     }
@@ -235,6 +237,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
     {
         const SceneTraits& traits = tile.context.traced->traits();
         if (traits.normalMaps) applyNormalMaps(*tile.context.traced, block->rays, block->surface);
+        if (traits.mipmaps) followCones(*block);
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
         block->passed = traits.blended ? passThrough(tile, *block) : 0;
@@ -271,6 +274,7 @@ void traceSecondary(WhittedTile& tile)
         block.seed[i] = from.seed;
         block.depth[i] = from.depth;
         block.layers[i] = from.layers;
+        setLane(block.cones, i, from.cone);
         active |= 1u << i;
         if (fromCamera) block.fromCamera |= 1u << i;
         tile.stack.pop_back();
@@ -349,6 +353,7 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         cameraRayLanes(context.camera, context.key, left, bottom, first + k, context.throughCentres,
                        block.rays, block.seed);
         startCamera(static_cast<uint32_t>((first + k) * kLanes), block);
+        if (traced.traits().mipmaps) cameraCones(context, block.rays.ray, block.cones);
         drawFirstPoints(tile, block);
     }
     for (ShadingBlock& block : tile.group)

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/LightGrid.h"
+#include "osgRayTrace/integrators/shared/RayCones.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 #include "osgRayTrace/integrators/whitted/FixedFunctionLighting.h"
@@ -22,6 +23,7 @@ struct SecondaryRay
     uint32_t pixel;
     uint32_t seed;
     int depth;
+    RayCone cone;
     bool fromCamera = false; ///< true: a camera ray that goes on behind blended surfaces
     int layers = 0;          ///< number of blended surfaces passed one after the other
 };
@@ -55,7 +57,8 @@ struct ShadingBlock
     Vec3Lanes weight;
     FloatLanes etaScale; ///< ratio of the weight outside of all glass to weight
     FloatLanes firstU,
-        firstV; ///< first sample on the first area light, see drawFirstPoints
+        firstV;      ///< first sample on the first area light, see drawFirstPoints
+    ConeLanes cones; ///< set in scenes with SceneTraits::mipmaps
     int depth[kLanes];
     int layers[kLanes];      ///< number of blended surfaces, see SecondaryRay
     LaneMask fromCamera = 0; ///< lanes of camera rays, and of those that go on
@@ -113,6 +116,20 @@ struct WhittedTile
     std::vector<Bsdf> bsdfs;   ///< kLanes for each block of the group; empty until needed
     std::vector<FixedFunctionPoint> points; ///< kLanes for each block; empty until needed
 };
+
+/// Returns the cone with which rays of lane i go on from their hit.
+inline RayCone coneOf(const WhittedTile& tile, const ShadingBlock& block, int i)
+{
+    if (!tile.context.traced->traits().mipmaps) return {};
+    return {block.cones.width[i], block.cones.spread[i]};
+}
+
+/// Sets the footprints of a block and moves its cones to the hits.
+inline void followCones(ShadingBlock& block)
+{
+    setFootprints(block.rays.ray, block.cones, block.surface);
+    moveCones(block.rays.ray, block.surface.hits, block.cones);
+}
 
 /// Adds a ray to the count of each lane's pixel, if the counts are wanted.
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes);

@@ -47,7 +47,40 @@ uint32_t below(StateStack& states, const osg::StateSet& stateSet)
     return number;
 }
 
+/// Returns the model's material with the values of a rule that edits; null: nothing changes.
+osg::ref_ptr<PhysicalMaterial> edited(const MaterialRule& rule, const GraphState& state)
+{
+    const osg::ref_ptr<PhysicalMaterial> own = materialOfModel(state);
+    osg::ref_ptr<PhysicalMaterial> result = new PhysicalMaterial(*own);
+    for (const auto& [parameter, values] : rule.given)
+        parameter->set(*result, values);
+    return result->compare(*own) == 0 ? nullptr : result;
+}
+
 } // namespace
+
+const MaterialRule* ruleFor(const MaterialLibrary& rules, const osg::NodePath& path,
+                            const GraphState& state)
+{
+    for (auto node = path.rbegin(); node != path.rend() && !rules.nodes.empty(); ++node)
+        if (const MaterialRule* rule = rules.nodes.find((*node)->getName())) return rule;
+    if (const auto* material = state.attribute<osg::Material>(kMaterialSlot))
+        if (const MaterialRule* rule = rules.materials.find(material->getName())) return rule;
+    const osg::Texture2D* texture = textureOf(state);
+    if (!texture || !texture->getImage()) return nullptr;
+    const std::string& file = texture->getImage()->getFileName();
+    if (const MaterialRule* rule = rules.textures.find(file)) return rule;
+    return rules.textures.find(osgDB::getSimpleFileName(file));
+}
+
+osg::ref_ptr<PhysicalMaterial> materialOfModel(const GraphState& state)
+{
+    if (const auto* own = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot))
+        return new PhysicalMaterial(*own);
+    osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    takeColor(state, *material);
+    return material;
+}
 
 /// Returns the application's material, or null.
 osg::ref_ptr<PhysicalMaterial> MaterialAssignment::ask(const osg::NodePath& path) const
@@ -85,30 +118,22 @@ osg::ref_ptr<PhysicalMaterial> MaterialAssignment::hookMaterial(const osg::NodeP
     return _answers->add(*path.back(), ask(path));
 }
 
-const MaterialRule* MaterialAssignment::ruleFor(const osg::NodePath& path,
-                                                const GraphState& state) const
-{
-    const MaterialLibrary& rules = *_givers.rules;
-    for (auto node = path.rbegin(); node != path.rend() && !rules.nodes.empty(); ++node)
-        if (const MaterialRule* rule = rules.nodes.find((*node)->getName())) return rule;
-    if (const auto* material = state.attribute<osg::Material>(kMaterialSlot))
-        if (const MaterialRule* rule = rules.materials.find(material->getName())) return rule;
-    const osg::Texture2D* texture = textureOf(state);
-    if (!texture || !texture->getImage()) return nullptr;
-    const std::string& file = texture->getImage()->getFileName();
-    if (const MaterialRule* rule = rules.textures.find(file)) return rule;
-    return rules.textures.find(osgDB::getSimpleFileName(file));
-}
-
-const osg::StateSet& MaterialAssignment::stateSetOf(const MaterialRule& rule, uint32_t number,
+const osg::StateSet* MaterialAssignment::stateSetOf(const MaterialRule& rule, uint32_t number,
                                                     const GraphState& state)
 {
-    osg::ref_ptr<osg::StateSet>& stateSet = _stateSets[{&rule, rule.keepsColor ? number : 0}];
-    if (stateSet) return *stateSet;
+    const bool asksState = rule.keepsColor || rule.edits;
+    const auto [known, isNew] = _stateSets.try_emplace({&rule, asksState ? number : 0});
+    if (!isNew) return known->second;
+    if (rule.edits)
+    {
+        if (const osg::ref_ptr<PhysicalMaterial> material = edited(rule, state))
+            known->second = stateSetWith(material);
+        return known->second;
+    }
     osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial(*rule.material);
     if (rule.keepsColor) takeColor(state, *material);
-    stateSet = stateSetWith(material);
-    return *stateSet;
+    known->second = stateSetWith(material);
+    return known->second;
 }
 
 /// Returns the first rule of "shaders" that fits, with its state. Rules that read user values are
@@ -150,11 +175,13 @@ AssignedState MaterialAssignment::stateOf(const osg::NodePath& path, StateStack&
         }
     if (!_givers.rules) return result;
     const GraphState state = states.states()[number];
-    if (const MaterialRule* rule = ruleFor(path, state))
+    if (const MaterialRule* rule = ruleFor(*_givers.rules, path, state))
     {
         _used.insert(rule);
+        const osg::StateSet* stateSet = stateSetOf(*rule, number, state);
+        if (!stateSet) return result;
         if (programOf(state)) result.by = &rule->pattern;
-        result.state = below(states, stateSetOf(*rule, number, state));
+        result.state = below(states, *stateSet);
         return result;
     }
     if (_givers.rules->shaders.empty()) return result;

@@ -30,6 +30,15 @@ struct MaterialGivers
     std::vector<osg::ref_ptr<const osg::StateSet>> inherited; ///< state sets above the root
 };
 
+/// Returns the rule of nodes, materials or textures for a geometry at the end of a path; null: none
+/// fits.
+const MaterialRule* ruleFor(const MaterialLibrary& rules, const osg::NodePath& path,
+                            const GraphState& state);
+
+/// Returns a copy of the state's PhysicalMaterial; without one, a new one with the diffuse colour
+/// and texture of the state.
+osg::ref_ptr<PhysicalMaterial> materialOfModel(const GraphState& state);
+
 /// Tells which state a geometry is drawn with, and by whose wish.
 struct AssignedState
 {
@@ -81,8 +90,7 @@ private:
 
     osg::ref_ptr<PhysicalMaterial> ask(const osg::NodePath& path) const;
     osg::ref_ptr<PhysicalMaterial> hookMaterial(const osg::NodePath& path);
-    const MaterialRule* ruleFor(const osg::NodePath& path, const GraphState& state) const;
-    const osg::StateSet& stateSetOf(const MaterialRule& rule, uint32_t number,
+    const osg::StateSet* stateSetOf(const MaterialRule& rule, uint32_t number,
                                     const GraphState& state);
     const ShaderMatch& shaderMatch(const osg::NodePath& path, uint32_t number,
                                    const GraphState& state);
@@ -95,6 +103,7 @@ private:
     DerivedTextures& _derived;
     std::set<const MaterialRule*> _used;
     bool _usedShaders = false;
+    /// By rule and state; null: the rule leaves the state as it is.
     std::map<std::pair<const MaterialRule*, uint32_t>, osg::ref_ptr<osg::StateSet>> _stateSets;
     std::map<uint32_t, ShaderMatch> _shaderMatches; ///< by state number
     std::map<const ShaderRule*, std::string> _missing;

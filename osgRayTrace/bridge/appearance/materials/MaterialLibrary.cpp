@@ -24,6 +24,9 @@ namespace
 
 using Json = nlohmann::json;
 
+/// Stands for the flag of rules that edit, which is no parameter of a material.
+const Parameter kEdits = {"edits", 1, 0.0, 1.0, nullptr};
+
 constexpr std::size_t kMostBytes = std::size_t(16) << 20;
 
 std::string shortNumber(double value)
@@ -217,7 +220,7 @@ private:
         if (name.empty()) return fail("a name is empty");
         _material = new PhysicalMaterial;
         _material->setName(name);
-        _rule = _rules->add({_group, name, _material, true});
+        _rule = _rules->add({_group, name, _material, true, false, {}});
         if (!_rule) return fail("'" + name + "' is there twice");
         if (_rules->patterns() > kMostPatterns)
             return fail("'" + name + "': more than " + std::to_string(kMostPatterns) +
@@ -229,9 +232,10 @@ private:
 
     bool beginParameter(const std::string& name)
     {
-        _parameter = findParameter(name);
+        _parameter = name == kEdits.name ? &kEdits : findParameter(name);
         if (!_parameter)
-            return fail("'" + name + "' is no parameter; there are " + parameterNames());
+            return fail("'" + name + "' is no parameter; there are " + parameterNames() +
+                        ", and edits");
         if (std::find(_given.begin(), _given.end(), name) != _given.end())
             return fail("'" + name + "' is there twice");
         _given.push_back(name);
@@ -261,7 +265,13 @@ private:
 
     bool set()
     {
+        if (_parameter == &kEdits)
+        {
+            _rule->edits = _values[0] != 0.0;
+            return true;
+        }
         _parameter->set(*_material, _values);
+        _rule->given.emplace_back(_parameter, _values);
         return true;
     }
 

@@ -8,13 +8,15 @@
 //     "shaders":   [ { "if": { "program": "Bump*" }, "baseColorTexture": { "unit": 0 } } ] }
 // The names are those of nodes (the nearest one above or at the geometry), of the osg::Material
 // that the geometry is drawn with, and of the image file of its texture, with or without folders.
-// "*" stands for any characters. A node's entry wins over a material's, and a material's over a
+// An entry with "edits": 1 changes the model's material instead of taking its place. "*" stands for
+// any characters. A node's entry wins over a material's, and a material's over a
 // texture's. In each group a name wins over a pattern, and the first of several patterns wins.
 // The parameters are those of PhysicalMaterial; without baseColor the diffuse colour and the
 // texture of the model stay. ShaderRule.h has the rules of the group "shaders", of which the first
 // one whose conditions hold wins; the other groups win over this one.
 #pragma once
 
+#include "osgRayTrace/bridge/appearance/materials/MaterialParameters.h"
 #include "osgRayTrace/bridge/appearance/materials/ShaderRule.h"
 #include "osgRayTrace/bridge/common/NamePattern.h"
 #include "osgRayTrace/bridge/common/ShaderState.h"
@@ -27,6 +29,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -38,6 +41,10 @@ struct MaterialRule
     std::string pattern;
     osg::ref_ptr<const PhysicalMaterial> material; ///< material, named after the pattern
     bool keepsColor = true;                        ///< true: the file gives no baseColor
+    /// True: the rule changes the values that it gives of the model's own material, and leaves a
+    /// material of which that changes nothing as it is.
+    bool edits = false;
+    std::vector<std::pair<const Parameter*, Values>> given; ///< parameters that the file gives
 };
 
 /// Largest number of names with "*" in a group, because each name of the scene that is no name of

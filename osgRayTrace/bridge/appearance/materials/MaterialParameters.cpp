@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialParameters.h"
 
+#include "osgRayTrace/base/NeverDestroyed.h"
+
 namespace osgRayTrace::engine
 {
 
@@ -20,41 +22,74 @@ float numberOf(const std::vector<double>& v)
     return static_cast<float>(v[0]);
 }
 
+Values valuesOf(const osg::Vec3& color)
+{
+    return {color.x(), color.y(), color.z()};
+}
+
+Values valuesOf(float number)
+{
+    return {number};
+}
+
+Values valuesOf(bool flag)
+{
+    return {flag ? 1.0 : 0.0};
+}
+
 const Parameter kParameters[] = {
     {"baseColor", 3, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getBaseColor()); }},
     {"metallic", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setMetallic(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setMetallic(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getMetallic()); }},
     {"roughness", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setRoughness(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setRoughness(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getRoughness()); }},
     {"transmission", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); }},
-    {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setTransmission(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getTransmission()); }},
+    {"ior", 1, 1.0, 4.0, [](PhysicalMaterial& m, const Values& v) { m.setIor(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getIor()); }},
     {"emission", 3, 0.0, kMost,
-     [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); }},
-    {"alpha", 1, 0.0, 1.0, [](PhysicalMaterial& m, const Values& v) { m.setAlpha(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setEmission(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getEmission()); }},
+    {"alpha", 1, 0.0, 1.0, [](PhysicalMaterial& m, const Values& v) { m.setAlpha(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getAlpha()); }},
     {"normalScale", 1, -16.0, 16.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setNormalScale(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setNormalScale(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getNormalScale()); }},
     {"thinWalled", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setThinWalled(v[0] != 0.0); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setThinWalled(v[0] != 0.0); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getThinWalled()); }},
     {"attenuationColor", 3, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationColor(colorOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationColor(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getAttenuationColor()); }},
     {"attenuationDistance", 1, 0.0, kMost,
-     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationDistance(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setAttenuationDistance(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getAttenuationDistance()); }},
     {"specular", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setSpecular(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setSpecular(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getSpecular()); }},
     {"specularColor", 3, 0.0, kMost,
-     [](PhysicalMaterial& m, const Values& v) { m.setSpecularColor(colorOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setSpecularColor(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getSpecularColor()); }},
     {"clearcoat", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setClearcoat(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setClearcoat(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getClearcoat()); }},
     {"clearcoatRoughness", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setClearcoatRoughness(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setClearcoatRoughness(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getClearcoatRoughness()); }},
     {"sheenColor", 3, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setSheenColor(colorOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setSheenColor(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getSheenColor()); }},
     {"sheenRoughness", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setSheenRoughness(numberOf(v)); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setSheenRoughness(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getSheenRoughness()); }},
     {"vertexColors", 1, 0.0, 1.0,
-     [](PhysicalMaterial& m, const Values& v) { m.setVertexColors(v[0] != 0.0); }},
+     [](PhysicalMaterial& m, const Values& v) { m.setVertexColors(v[0] != 0.0); },
+     [](const PhysicalMaterial& m) { return valuesOf(m.getVertexColors()); }},
 };
 
 } // namespace
@@ -64,6 +99,19 @@ const Parameter* findParameter(const std::string& name)
     for (const Parameter& parameter : kParameters)
         if (name == parameter.name) return &parameter;
     return nullptr;
+}
+
+const std::vector<const Parameter*>& allParameters()
+{
+    static const NeverDestroyed<std::vector<const Parameter*>> all(
+        []
+        {
+            std::vector<const Parameter*> pointers;
+            for (const Parameter& parameter : kParameters)
+                pointers.push_back(&parameter);
+            return pointers;
+        }());
+    return *all;
 }
 
 std::string parameterNames()

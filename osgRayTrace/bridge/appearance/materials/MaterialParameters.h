@@ -20,10 +20,14 @@ struct Parameter
     std::size_t count;
     double lowest, highest;
     void (*set)(PhysicalMaterial&, const Values&);
+    Values (*get)(const PhysicalMaterial&) = nullptr;
 };
 
 /// Returns the parameter of a name; null if there is none.
 const Parameter* findParameter(const std::string& name);
+
+/// Returns all parameters, in the order of the documentation.
+const std::vector<const Parameter*>& allParameters();
 
 /// Returns all names, separated by commas.
 std::string parameterNames();

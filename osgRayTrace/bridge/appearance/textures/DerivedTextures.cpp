@@ -71,7 +71,8 @@ void copySampling(const osg::Texture2D& from, osg::Texture2D& to)
 {
     for (const auto direction : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
         to.setWrap(direction, from.getWrap(direction));
-    to.setFilter(osg::Texture::MAG_FILTER, from.getFilter(osg::Texture::MAG_FILTER));
+    for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+        to.setFilter(filter, from.getFilter(filter));
     to.setBorderColor(from.getBorderColor());
     to.setName(from.getName());
 }

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/appearance/textures/MissingImages.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureDecoder.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureFormats.h"
+#include "osgRayTrace/shading/TextureMips.h"
 
 #include <osg/Texture1D>
 #include <osg/Texture2D>
@@ -115,6 +116,7 @@ bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool d
     entry.index = index;
     entry.texture = &texture;
     entry.internalFormat = internalFormatOf(texture, texture.getImage(0));
+    entry.minification = texture.getFilter(osg::Texture::MIN_FILTER);
     entry.converted = converted(texture, decode, report);
     return true;
 }
@@ -142,6 +144,12 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
     if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
     result->border = borderOf(texture);
     setChannels(internalFormatOf(texture, &image), image.getPixelFormat(), *result);
+    if (wantsMips(texture))
+    {
+        const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
+        result->mips = textureMips(*result, !isNearest(filter));
+        result->blendsMips = blendsMips(filter);
+    }
     result->changed = _stamp;
     return result;
 }
@@ -166,6 +174,7 @@ bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture
     if (!entry.converted || entry.texture.get() != &texture) return false;
     const Texture& old = *entry.converted;
     if (old.linearFilter == isNearest(texture.getFilter(osg::Texture::MAG_FILTER)) ||
+        entry.minification != texture.getFilter(osg::Texture::MIN_FILTER) ||
         old.wrapS != wrapOf(texture, osg::Texture::WRAP_S) ||
         (old.wrapT != wrapOf(texture, osg::Texture::WRAP_T) && old.height > 1) ||
         (old.depth > 0 && old.wrapR != wrapOf(texture, osg::Texture::WRAP_R)) ||

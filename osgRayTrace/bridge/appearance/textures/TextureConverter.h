@@ -77,6 +77,7 @@ private:
         osg::observer_ptr<const osg::Texture> texture; // tells a new object at an old address apart
         std::vector<ImageSignature> images;
         GLint internalFormat = 0;
+        osg::Texture::FilterMode minification = osg::Texture::LINEAR;
         std::shared_ptr<const Texture> converted;
         uint32_t index = kInvalid; // index in this snapshot
         Stamp looked = 0;          // stamp of the last comparison with the image

@@ -113,7 +113,22 @@ bool isSrgbFormat(GLint internalFormat)
 
 bool isNearest(osg::Texture::FilterMode mode)
 {
-    return mode == osg::Texture::NEAREST;
+    return mode == osg::Texture::NEAREST || mode == osg::Texture::NEAREST_MIPMAP_NEAREST ||
+           mode == osg::Texture::NEAREST_MIPMAP_LINEAR;
+}
+
+bool wantsMips(const osg::Texture& texture)
+{
+    const GLenum target = texture.getTextureTarget();
+    const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
+    return (target == GL_TEXTURE_2D || target == GL_TEXTURE_1D) &&
+           filter != osg::Texture::NEAREST && filter != osg::Texture::LINEAR;
+}
+
+bool blendsMips(osg::Texture::FilterMode minification)
+{
+    return minification == osg::Texture::LINEAR_MIPMAP_LINEAR ||
+           minification == osg::Texture::NEAREST_MIPMAP_LINEAR;
 }
 
 bool isVolume(const osg::Texture& texture)

@@ -19,7 +19,14 @@ Vec4 borderOf(const osg::Texture& texture);
 
 bool isSrgbFormat(GLint internalFormat);
 
+/// Returns whether a look-up takes one texel of its image or mip, not the mean of four.
 bool isNearest(osg::Texture::FilterMode mode);
+
+/// Returns whether OpenGL looks the texture up in mips if it is minified.
+bool wantsMips(const osg::Texture& texture);
+
+/// Returns whether OpenGL blends two mips; false: it takes the nearest one.
+bool blendsMips(osg::Texture::FilterMode minification);
 
 bool isVolume(const osg::Texture& texture);
 

@@ -1,0 +1,242 @@
+// MaterialListing.cpp - names and values of the materials of a graph. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/MaterialListing.h"
+
+#include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
+#include "osgRayTrace/bridge/appearance/materials/RuleMaterial.h"
+
+#include <nlohmann/json.hpp>
+#include <osg/Geometry>
+#include <osg/Image>
+#include <osg/Material>
+#include <osg/NodeVisitor>
+
+#include <array>
+#include <charconv>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+using Json = nlohmann::json;
+
+/// Calls use(path, state) for each geometry. A node that was met in the same state below the same
+/// named node is passed by.
+class GeometryVisitor : public osg::NodeVisitor
+{
+public:
+    using Use = std::function<void(const osg::NodePath&, const GraphState&)>;
+
+    explicit GeometryVisitor(const Use& use)
+        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ALL_CHILDREN), _use(use), _states(GraphState())
+    {
+    }
+
+    void apply(osg::Node& node) override
+    {
+        const osg::StateSet* stateSet = node.getStateSet();
+        if (stateSet) _states.push(*stateSet);
+        const uint32_t state = _states.top();
+        const osg::Node* named = namedNode();
+        if (getNodePath().size() < kDeepest && _seen.insert({&node, state, named}).second)
+        {
+            if (node.asGeometry())
+                _use(getNodePath(), _states.states()[state]);
+            else
+                traverse(node);
+        }
+        if (stateSet) _states.pop();
+    }
+
+private:
+    static constexpr std::size_t kDeepest = 5000; ///< as in conversions
+
+    const osg::Node* namedNode() const
+    {
+        for (auto node = _nodePath.rbegin(); node != _nodePath.rend(); ++node)
+            if (!(*node)->getName().empty()) return *node;
+        return nullptr;
+    }
+
+    const Use& _use;
+    StateStack _states;
+    std::set<std::tuple<const osg::Node*, uint32_t, const osg::Node*>> _seen;
+};
+
+void eachGeometry(osg::Node& scene, const GeometryVisitor::Use& use)
+{
+    GeometryVisitor visitor(use);
+    scene.accept(visitor);
+}
+
+/// Returns the name as text of JSON; nothing if it cannot be a name in a file.
+std::optional<std::string> quoted(const std::string& name)
+{
+    if (name.empty() || name.find('*') != std::string::npos) return std::nullopt;
+    try
+    {
+        return Json(name).dump();
+    }
+    catch (const Json::exception&) // no UTF-8
+    {
+        return std::nullopt;
+    }
+}
+
+struct EntryName
+{
+    const char* group = nullptr; ///< null: there is no name
+    std::string name;
+};
+
+/// Returns the name of the material, or of its texture.
+EntryName ownName(const GraphState& state)
+{
+    const auto* material = state.attribute<osg::Material>(kMaterialSlot);
+    if (material && quoted(material->getName())) return {"materials", material->getName()};
+    const osg::Texture2D* texture = textureOf(state);
+    if (texture && texture->getImage() && quoted(texture->getImage()->getFileName()))
+        return {"textures", texture->getImage()->getFileName()};
+    return {};
+}
+
+/// Returns the name of the nearest node with a name, unless it is among the taken ones.
+EntryName nodeName(const osg::NodePath& path, const std::set<std::string>& taken)
+{
+    for (auto node = path.rbegin(); node != path.rend(); ++node)
+    {
+        const std::string& name = (*node)->getName();
+        if (name.empty()) continue;
+        return quoted(name) && taken.count(name) == 0 ? EntryName{"nodes", name} : EntryName{};
+    }
+    return {};
+}
+
+MaterialRuleList& groupOf(const std::string& name, MaterialLibrary& library)
+{
+    return name == "nodes"       ? library.nodes
+           : name == "materials" ? library.materials
+                                 : library.textures;
+}
+
+/// Returns the entries that a file needs, without values.
+MaterialLibrary entriesOf(osg::Node& scene)
+{
+    MaterialLibrary library;
+    const auto add = [&library](const EntryName& entry)
+    {
+        if (entry.group)
+            groupOf(entry.group, library).add({entry.group, entry.name, nullptr, true, false, {}});
+    };
+    std::set<std::string> taken; // names of nodes above geometries with a name of their own
+    eachGeometry(scene,
+                 [&](const osg::NodePath& path, const GraphState& state)
+                 {
+                     const EntryName name = ownName(state);
+                     if (!name.group) return;
+                     add(name);
+                     for (const osg::Node* node : path)
+                         taken.insert(node->getName());
+                 });
+    eachGeometry(scene,
+                 [&](const osg::NodePath& path, const GraphState& state)
+                 {
+                     if (!ownName(state).group) add(nodeName(path, taken));
+                 });
+    return library;
+}
+
+/// Returns the shortest text that reads as the same float.
+std::string numberText(double value)
+{
+    std::array<char, 32> text;
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value)).ptr;
+    return std::string(text.data(), end);
+}
+
+std::string valueText(const Values& values)
+{
+    if (values.size() == 1) return numberText(values[0]);
+    std::string text;
+    for (const double value : values)
+        text += (text.empty() ? "[" : ", ") + numberText(value);
+    return text + "]";
+}
+
+/// The first parameters stand in each entry, the others if they are not the default.
+constexpr std::size_t kAlwaysListed = 7;
+
+/// Returns the lines of the material's parameters.
+std::string parameterLines(const PhysicalMaterial& material)
+{
+    const osg::ref_ptr<PhysicalMaterial> plain = new PhysicalMaterial;
+    const std::vector<const Parameter*>& parameters = allParameters();
+    std::string lines;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+    {
+        const Values values = parameters[i]->get(material);
+        if (i >= kAlwaysListed && values == parameters[i]->get(*plain)) continue;
+        lines += std::string(",\n      \"") + parameters[i]->name + "\": " + valueText(values);
+    }
+    return lines;
+}
+
+/// Returns the parameters of each entry: none if those of its geometries differ.
+std::map<const MaterialRule*, std::string>
+valuesOf(osg::Node& scene, const MaterialLibrary& library, std::size_t& nameless)
+{
+    std::map<const MaterialRule*, std::string> values;
+    eachGeometry(scene,
+                 [&](const osg::NodePath& path, const GraphState& state)
+                 {
+                     const MaterialRule* rule = ruleFor(library, path, state);
+                     if (!rule)
+                     {
+                         ++nameless;
+                         return;
+                     }
+                     const std::string lines = parameterLines(*materialOfModel(state));
+                     const auto [known, isNew] = values.try_emplace(rule, lines);
+                     if (!isNew && known->second != lines) known->second.clear();
+                 });
+    return values;
+}
+
+} // namespace
+
+MaterialListing listMaterials(osg::Node& scene)
+{
+    MaterialListing listing;
+    const MaterialLibrary library = entriesOf(scene);
+    const auto values = valuesOf(scene, library, listing.nameless);
+    std::string groups;
+    for (const auto& [group, list] :
+         {std::make_pair("nodes", &library.nodes), std::make_pair("materials", &library.materials),
+          std::make_pair("textures", &library.textures)})
+    {
+        std::map<std::string, std::string> entries; // sorted by name
+        for (const MaterialRule& rule : *list)
+            if (const auto known = values.find(&rule); known != values.end())
+                entries.emplace(*quoted(rule.pattern), known->second);
+        listing.entries += entries.size();
+        std::string text;
+        for (const auto& [name, lines] : entries)
+            text += (text.empty() ? "\n    " : ",\n    ") + name + ": {\n      \"edits\": 1" +
+                    lines + "\n    }";
+        if (!text.empty())
+            groups += std::string(groups.empty() ? "" : ",") + "\n  \"" + group + "\": {" + text +
+                      "\n  }";
+    }
+    listing.text = "{" + groups + "\n}\n";
+    return listing;
+}
+
+} // namespace osgRayTrace::engine
