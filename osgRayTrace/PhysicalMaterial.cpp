@@ -92,7 +92,15 @@ PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::Cop
       _clearcoat(other._clearcoat),
       _clearcoatRoughness(other._clearcoatRoughness),
       _sheenColor(other._sheenColor),
-      _sheenRoughness(other._sheenRoughness)
+      _sheenRoughness(other._sheenRoughness),
+      _anisotropy(other._anisotropy),
+      _anisotropyRotation(other._anisotropyRotation),
+      _diffuseTransmission(other._diffuseTransmission),
+      _diffuseTransmissionColor(other._diffuseTransmissionColor),
+      _iridescence(other._iridescence),
+      _iridescenceIor(other._iridescenceIor),
+      _iridescenceThicknessMinimum(other._iridescenceThicknessMinimum),
+      _iridescenceThicknessMaximum(other._iridescenceThicknessMaximum)
 {
     for (int use = 0; use < NUMBER_OF_TEXTURES; ++use)
     {
@@ -111,7 +119,10 @@ int PhysicalMaterial::compare(const osg::StateAttribute& other) const
         return std::tie(m._baseColor, m._metallic, m._roughness, m._transmission, m._ior,
                         m._emission, m._alpha, m._vertexColors, m._normalScale, m._thinWalled,
                         m._attenuationColor, m._attenuationDistance, m._specular, m._specularColor,
-                        m._clearcoat, m._clearcoatRoughness, m._sheenColor, m._sheenRoughness);
+                        m._clearcoat, m._clearcoatRoughness, m._sheenColor, m._sheenRoughness,
+                        m._anisotropy, m._anisotropyRotation, m._diffuseTransmission,
+                        m._diffuseTransmissionColor, m._iridescence, m._iridescenceIor,
+                        m._iridescenceThicknessMinimum, m._iridescenceThicknessMaximum);
     };
     if (values(*this) < values(rhs)) return -1;
     if (values(rhs) < values(*this)) return 1;
@@ -203,6 +214,46 @@ void PhysicalMaterial::setSheenColor(const osg::Vec3& value)
 void PhysicalMaterial::setSheenRoughness(float value)
 {
     assign("sheen roughness", _sheenRoughness, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setAnisotropy(float value)
+{
+    assign("anisotropy", _anisotropy, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setAnisotropyRotation(float value)
+{
+    assign("anisotropy rotation", _anisotropyRotation, value, -kLargest, kLargest);
+}
+
+void PhysicalMaterial::setDiffuseTransmission(float value)
+{
+    assign("diffuse transmission", _diffuseTransmission, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setDiffuseTransmissionColor(const osg::Vec3& value)
+{
+    assign("diffuse transmission color", _diffuseTransmissionColor, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setIridescence(float value)
+{
+    assign("iridescence", _iridescence, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setIridescenceIor(float value)
+{
+    assign("iridescence ior", _iridescenceIor, value, 1.0f, 4.0f);
+}
+
+void PhysicalMaterial::setIridescenceThicknessMinimum(float value)
+{
+    assign("iridescence thickness", _iridescenceThicknessMinimum, value, 0.0f, kLargest);
+}
+
+void PhysicalMaterial::setIridescenceThicknessMaximum(float value)
+{
+    assign("iridescence thickness", _iridescenceThicknessMaximum, value, 0.0f, kLargest);
 }
 
 void PhysicalMaterial::setTexture(TextureUse use, osg::Texture2D* texture)

@@ -12,29 +12,20 @@ namespace
 {
 
 const char* const kRead[] = {
-    "EXT_mesh_gpu_instancing",
-    "KHR_materials_clearcoat",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_volume",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_mesh_quantization",
+    "EXT_mesh_gpu_instancing",    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_diffuse_transmission",
+    "KHR_materials_iridescence",  "KHR_materials_sheen",
+    "KHR_materials_specular",     "KHR_materials_volume",
+    "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",     "KHR_mesh_quantization",
     "KHR_texture_transform",
 };
 
 /// These change how a surface looks, and no more: a file that requires them is shown without.
 const char* const kLeftOut[] = {
-    "KHR_materials_anisotropy",
-    "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
-    "KHR_materials_iridescence",
-
 };
 
 template <std::size_t count>

@@ -101,6 +101,35 @@ void setLayers(const JsonPlace& material, TextureReader& textures, Document& doc
     }
 }
 
+/// Reads the extensions that change reflection and transmission themselves.
+void setLobes(const JsonPlace& material, TextureReader& textures, MaterialValues& values)
+{
+    if (const auto stretched = material.extension("KHR_materials_anisotropy"))
+    {
+        values.anisotropy = stretched->numberOr("anisotropyStrength", 0.0f);
+        values.anisotropyRotation = stretched->numberOr("anisotropyRotation", 0.0f);
+        values.anisotropyTexture = textures.read(*stretched, "anisotropyTexture");
+    }
+    if (const auto through = material.extension("KHR_materials_diffuse_transmission"))
+    {
+        values.diffuseTransmission = through->numberOr("diffuseTransmissionFactor", 0.0f);
+        values.diffuseTransmissionTexture = textures.read(*through, "diffuseTransmissionTexture");
+        values.diffuseTransmissionColor =
+            toVec3(through->numbersOr<3>("diffuseTransmissionColorFactor", {1.0f, 1.0f, 1.0f}));
+        values.diffuseTransmissionColorTexture =
+            textures.read(*through, "diffuseTransmissionColorTexture");
+    }
+    if (const auto film = material.extension("KHR_materials_iridescence"))
+    {
+        values.iridescence = film->numberOr("iridescenceFactor", 0.0f);
+        values.iridescenceTexture = textures.read(*film, "iridescenceTexture");
+        values.iridescenceIor = film->numberOr("iridescenceIor", 1.3f);
+        values.iridescenceThicknessMinimum = film->numberOr("iridescenceThicknessMinimum", 100.0f);
+        values.iridescenceThicknessMaximum = film->numberOr("iridescenceThicknessMaximum", 400.0f);
+        values.iridescenceThicknessTexture = textures.read(*film, "iridescenceThicknessTexture");
+    }
+}
+
 AlphaMode alphaModeOf(const JsonPlace& material)
 {
     const std::string mode = material.textOr("alphaMode", "OPAQUE");
@@ -139,6 +168,7 @@ MaterialValues materialValues(const JsonPlace& material, TextureReader& textures
         values.ior = ior->numberOr("ior", 1.5f);
     setTransmission(material, textures, values);
     setLayers(material, textures, document, values);
+    setLobes(material, textures, values);
     return values;
 }
 

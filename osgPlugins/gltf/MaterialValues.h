@@ -50,6 +50,14 @@ struct MaterialValues
     osg::Vec3 sheenColor;
     float sheenRoughness = 0.0f;
     std::optional<TextureUse> sheenColorTexture, sheenRoughnessTexture;
+    float anisotropy = 0.0f, anisotropyRotation = 0.0f; ///< [radians]
+    std::optional<TextureUse> anisotropyTexture;
+    float diffuseTransmission = 0.0f;
+    osg::Vec3 diffuseTransmissionColor{1.0f, 1.0f, 1.0f};
+    std::optional<TextureUse> diffuseTransmissionTexture, diffuseTransmissionColorTexture;
+    float iridescence = 0.0f, iridescenceIor = 1.3f;
+    float iridescenceThicknessMinimum = 100.0f, iridescenceThicknessMaximum = 400.0f; ///< [nm]
+    std::optional<TextureUse> iridescenceTexture, iridescenceThicknessTexture;
 };
 
 /// Reads a material. Throws GltfError.

@@ -61,6 +61,11 @@ void setTextures(const MaterialValues& values, PhysicalMaterial& material, Docum
     set(values.clearcoatRoughnessTexture, Material::CLEARCOAT_ROUGHNESS_TEXTURE);
     set(values.sheenColorTexture, Material::SHEEN_COLOR_TEXTURE);
     set(values.sheenRoughnessTexture, Material::SHEEN_ROUGHNESS_TEXTURE);
+    set(values.anisotropyTexture, Material::ANISOTROPY_TEXTURE);
+    set(values.diffuseTransmissionTexture, Material::DIFFUSE_TRANSMISSION_TEXTURE);
+    set(values.diffuseTransmissionColorTexture, Material::DIFFUSE_TRANSMISSION_COLOR_TEXTURE);
+    set(values.iridescenceTexture, Material::IRIDESCENCE_TEXTURE);
+    set(values.iridescenceThicknessTexture, Material::IRIDESCENCE_THICKNESS_TEXTURE);
 }
 
 } // namespace
@@ -90,6 +95,14 @@ osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bo
     material->setClearcoatRoughness(unit(values.clearcoatRoughness));
     material->setSheenColor(unit(values.sheenColor));
     material->setSheenRoughness(unit(values.sheenRoughness));
+    material->setAnisotropy(unit(values.anisotropy));
+    material->setAnisotropyRotation(values.anisotropyRotation);
+    material->setDiffuseTransmission(unit(values.diffuseTransmission));
+    material->setDiffuseTransmissionColor(unit(values.diffuseTransmissionColor));
+    material->setIridescence(unit(values.iridescence));
+    material->setIridescenceIor(std::clamp(values.iridescenceIor, 1.0f, 4.0f));
+    material->setIridescenceThicknessMinimum(std::max(values.iridescenceThicknessMinimum, 0.0f));
+    material->setIridescenceThicknessMaximum(std::max(values.iridescenceThicknessMaximum, 0.0f));
     setTextures(values, *material, document);
     return material;
 }

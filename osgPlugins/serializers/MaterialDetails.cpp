@@ -36,7 +36,12 @@ constexpr const char* kTextures[PhysicalMaterial::NUMBER_OF_TEXTURES] = {
     "clearcoatTexture",
     "clearcoatRoughnessTexture",
     "sheenColorTexture",
-    "sheenRoughnessTexture"};
+    "sheenRoughnessTexture",
+    "anisotropyTexture",
+    "diffuseTransmissionTexture",
+    "diffuseTransmissionColorTexture",
+    "iridescenceTexture",
+    "iridescenceThicknessTexture"};
 
 PhysicalMaterial::TextureUse useOf(int number)
 {
@@ -138,7 +143,18 @@ constexpr Parameter kParameters[] = {
     parameter<&M::getClearcoat, &M::setClearcoat>("clearcoat"),
     parameter<&M::getClearcoatRoughness, &M::setClearcoatRoughness>("clearcoatRoughness"),
     parameter<&M::getSheenColor, &M::setSheenColor>("sheenColor"),
-    parameter<&M::getSheenRoughness, &M::setSheenRoughness>("sheenRoughness")};
+    parameter<&M::getSheenRoughness, &M::setSheenRoughness>("sheenRoughness"),
+    parameter<&M::getAnisotropy, &M::setAnisotropy>("anisotropy"),
+    parameter<&M::getAnisotropyRotation, &M::setAnisotropyRotation>("anisotropyRotation"),
+    parameter<&M::getDiffuseTransmission, &M::setDiffuseTransmission>("diffuseTransmission"),
+    parameter<&M::getDiffuseTransmissionColor, &M::setDiffuseTransmissionColor>(
+        "diffuseTransmissionColor"),
+    parameter<&M::getIridescence, &M::setIridescence>("iridescence"),
+    parameter<&M::getIridescenceIor, &M::setIridescenceIor>("iridescenceIor"),
+    parameter<&M::getIridescenceThicknessMinimum, &M::setIridescenceThicknessMinimum>(
+        "iridescenceThicknessMinimum"),
+    parameter<&M::getIridescenceThicknessMaximum, &M::setIridescenceThicknessMaximum>(
+        "iridescenceThicknessMaximum")};
 
 /// Returns the parameters that are not defaults, by name. The word of a texture is 1.
 Words wordsOf(const PhysicalMaterial& material)

@@ -6,6 +6,7 @@
 #include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SurfaceAttributes.h"
+#include "osgRayTrace/accel/SurfaceTangents.h"
 #include "osgRayTrace/sampling/Warp.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace
 /// unbent, has no use for them.
 bool storesPhotons(const Bsdf& bsdf)
 {
-    if (bsdf.diffuse != Vec3(0.0f)) return true;
+    if (bsdf.diffuse != Vec3(0.0f) || bsdf.diffuseTransmission != Vec3(0.0f)) return true;
     return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
 }
 
@@ -95,15 +96,24 @@ void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surfac
 }
 
 /// Samples the surface model of one lane, of any kind.
-void ChunkTracer::scatterOne(const PhotonPathBlock& block, int i, bool mustMirror)
+void ChunkTracer::scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
+                             bool mustMirror)
 {
     const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
+    const Bsdf* bsdf = _bsdfs[i];
+    Bsdf aligned;
+    if (bsdf->isAnisotropic())
+    {
+        aligned = *bsdf;
+        alignTangent(_inputs.traced, _rays, surface, i, normal, aligned);
+        bsdf = &aligned;
+    }
     Vec3 tangent, bitangent;
     frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
     const Vec3 wo(-glm::dot(direction, tangent), -glm::dot(direction, bitangent),
                   -glm::dot(direction, normal));
     const std::optional<BsdfSample> sample =
-        sampleBsdf(*_bsdfs[i], wo, _lobe[i], _u[i], _v[i], Transport::Importance);
+        sampleBsdf(*bsdf, wo, _lobe[i], _u[i], _v[i], Transport::Importance);
     if (!sample || (mustMirror && !sample->delta)) return;
     const Vec3 wi = tangent * sample->wi.x + bitangent * sample->wi.y + normal * sample->wi.z;
     setLane(_scattered.wi, i, wi);
@@ -142,7 +152,7 @@ void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, i
         _scattered.mirrored = _smooth;
     }
     for (const int i : lanesIn(_general))
-        scatterOne(block, i, mustMirror);
+        scatterOne(block, surface, i, mustMirror);
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
     _paths.append(block, alive);

@@ -87,7 +87,8 @@ private:
     void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                int bounce);
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
-    void scatterOne(const PhotonPathBlock& block, int i, bool mustMirror);
+    void scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
+                    bool mustMirror);
     const Bsdf* bsdfAt(const SurfaceLanes& surface, int i);
 
     const ChunkInputs& _inputs;

@@ -94,13 +94,18 @@ enum TextureRole : uint32_t
     kMetallicRoughnessRole,
     kTransmissionRole,
     kEmissionRole,
-    kNormalRole,             ///< 2 RGB - 1 along s, along t and the normal; linear
-    kSpecularRole,           ///< specular in A; linear
-    kSpecularColorRole,      ///< multiplies specularColor
-    kClearcoatRole,          ///< clearcoat in R; linear
-    kClearcoatRoughnessRole, ///< clearcoatRoughness in G; linear
-    kSheenColorRole,         ///< multiplies sheenColor
-    kSheenRoughnessRole,     ///< sheenRoughness in A; linear
+    kNormalRole,              ///< 2 RGB - 1 along s, along t and the normal; linear
+    kSpecularRole,            ///< specular in A; linear
+    kSpecularColorRole,       ///< multiplies specularColor
+    kClearcoatRole,           ///< clearcoat in R; linear
+    kClearcoatRoughnessRole,  ///< clearcoatRoughness in G; linear
+    kSheenColorRole,          ///< multiplies sheenColor
+    kSheenRoughnessRole,      ///< sheenRoughness in A; linear
+    kAnisotropyRole,          ///< 2 RG - 1 along tangent and bitangent, anisotropy in B; linear
+    kDiffuseTransmissionRole, ///< diffuseTransmission in A; linear
+    kDiffuseTransmissionColorRole, ///< multiplies diffuseTransmissionColor
+    kIridescenceRole,              ///< iridescence in R; linear
+    kIridescenceThicknessRole,     ///< from the least to the largest thickness in G; linear
     kTextureRoles,
 };
 
@@ -124,6 +129,13 @@ struct MaterialDetail
     float clearcoatRoughness = 0.0f;
     Vec3 sheenColor{0.0f}; ///< KHR_materials_sheen
     float sheenRoughness = 0.0f;
+    float anisotropy = 0.0f;          ///< KHR_materials_anisotropy
+    float anisotropyRotation = 0.0f;  ///< [radians] from the tangent to the bitangent
+    float diffuseTransmission = 0.0f; ///< KHR_materials_diffuse_transmission
+    Vec3 diffuseTransmissionColor{1.0f};
+    float iridescence = 0.0f; ///< KHR_materials_iridescence
+    float iridescenceIor = 1.3f;
+    Vec2 iridescenceThickness{100.0f, 400.0f}; ///< [nm] where the texture is 0 and 1
     float normalScale = 1.0f;
 
     /// Textures by role, indices into Scene::textures or kInvalid. Those of the first four roles

@@ -27,7 +27,7 @@ SpecularLobes specularLobes(const Bsdf& bsdf, Vec3 wo);
 /// channels.
 inline Vec3 bsdfAlbedo(const Bsdf& bsdf)
 {
-    return bsdf.diffuse + bsdf.reflectance + bsdf.transmission;
+    return bsdf.diffuse + bsdf.reflectance + bsdf.transmission + bsdf.diffuseTransmission;
 }
 
 } // namespace osgRayTrace::engine

@@ -12,11 +12,28 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Returns the albedo of a coat whose roughness is between those of two rows.
-OSGRAYTRACE_INLINE float between(const float* first, const float* second, float fraction,
-                                 float cosTheta)
+/// Tells the rows of the coats of lanes: none, from outside, or from inside.
+enum class Rows
 {
-    const float a = coatRowAlbedo(first, cosTheta), b = coatRowAlbedo(second, cosTheta);
+    None,
+    Plain,
+    Bent,
+};
+
+/// Holds two rows of a coat, between whose roughnesses that of the coat is.
+struct TwoRows
+{
+    const float *first = nullptr, *second = nullptr;
+    float bend = 0.0f;
+};
+
+/// Returns the albedo of a coat.
+template <Rows kRows> OSGRAYTRACE_INLINE float between(TwoRows rows, float fraction, float cosTheta)
+{
+    const float a = kRows == Rows::Bent ? bentRowAlbedo(rows.first, rows.bend, cosTheta)
+                                        : coatRowAlbedo(rows.first, cosTheta);
+    const float b = kRows == Rows::Bent ? bentRowAlbedo(rows.second, rows.bend, cosTheta)
+                                        : coatRowAlbedo(rows.second, cosTheta);
     return a + (b - a) * fraction;
 }
 
@@ -28,13 +45,14 @@ OSGRAYTRACE_INLINE float lambdaOf(float alpha2, float cosTheta)
 }
 
 /// Evaluates the formulas that Bsdf.h and Bsdf.cpp explain.
-template <bool kRows>
+template <Rows kRows>
 OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
                                   const Vec3Lanes& normal, const Vec3Lanes& wo, const Vec3Lanes& wi,
                                   LaneMask lanes, Vec3Lanes& fCos, FloatLanes& pdfW)
 {
-    const float* const firstRow = kRows ? rows[0].albedo.data() : nullptr;
-    const float* const secondRow = kRows ? rows[1].albedo.data() : nullptr;
+    constexpr bool kHasRows = kRows != Rows::None;
+    const TwoRows two =
+        kHasRows ? TwoRows{rows[0].albedo.data(), rows[1].albedo.data(), rows[0].bend} : TwoRows();
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -46,10 +64,9 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
 
         const float eta = s.eta[i], coat = s.coat[i], fraction = s.coatFraction[i];
         const float fresnelO = select(coat > 0.0f, fresnelDielectric(cosO, eta), 0.0f);
-        const float belowO =
-            1.0f - (kRows ? between(firstRow, secondRow, fraction, cosO) : fresnelO);
-        const float belowI = 1.0f - (kRows ? between(firstRow, secondRow, fraction, cosI)
-                                           : fresnelDielectric(cosI, eta));
+        const float belowO = 1.0f - (kHasRows ? between<kRows>(two, fraction, cosO) : fresnelO);
+        const float belowI =
+            1.0f - (kHasRows ? between<kRows>(two, fraction, cosI) : fresnelDielectric(cosI, eta));
         const float left = select(s.coated[i], belowI * belowO / s.belowAverage[i], 1.0f);
         const float lambert = kInvPi * cosI * left;
 
@@ -99,10 +116,12 @@ void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lane
                const Vec3Lanes& wo, const Vec3Lanes& wi, LaneMask lanes, Vec3Lanes& fCos,
                FloatLanes& pdfW)
 {
-    if (rows)
-        evalLanes<true>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
+    if (!rows)
+        evalLanes<Rows::None>(bsdfs, nullptr, normal, wo, wi, lanes, fCos, pdfW);
+    else if (rows->bend == 0.0f)
+        evalLanes<Rows::Plain>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
     else
-        evalLanes<false>(bsdfs, nullptr, normal, wo, wi, lanes, fCos, pdfW);
+        evalLanes<Rows::Bent>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
 }
 
 } // namespace

@@ -33,8 +33,9 @@ enum class Transport
 /// close to 1. Neither side makes energy, as diffuse + transmission <= 1 - grazing, and coat is 0
 /// or 1 - grazing.
 ///
-/// A surface with layers (a clear coat, sheen, a thin wall, or another reflectance than that of the
-/// index) has the terms of LayeredBsdf.h, which says what the last members mean.
+/// A surface with layers (a clear coat, sheen, a thin wall, a film, anisotropy, diffuse
+/// transmission or another reflectance than that of the index) has the terms of LayeredBsdf.h,
+/// which says what the last members mean.
 struct Bsdf
 {
     Vec3 diffuse{0.0f};       ///< albedo of the base
@@ -60,13 +61,27 @@ struct Bsdf
     float clearcoatFraction = 0.0f;
     Vec3 sheen{0.0f};
     float sheenAlpha = 0.0f;
+    float alphaTangent = 0.0f;      ///< GGX width along the tangent, alpha across; 0: isotropic
+    Vec2 tangent{1.0f, 0.0f};       ///< local, unit
+    Vec3 diffuseTransmission{0.0f}; ///< share of light that the base diffuses to the other side
+    float film = 0.0f;              ///< share of the surface that has a thin film
+    float filmIor = 1.0f, filmThickness = 0.0f; ///< thickness [nm]
+    float filmRise = 0.0f;    ///< least a for which F' <= F + a (1 - F) at all angles
     float baseAverage = 1.0f; ///< mean over cosine-weighted directions of what reaches the base
 
     /// Returns the index that radiance and directions change by if light is transmitted.
-    float transmittedEta() const { return thin ? 1.0f : eta; }
+    float transmittedEta() const { return thin || !transmits() ? 1.0f : eta; }
 
     bool reflects() const { return coat > 0.0f || grazing > 0.0f || reflectance != Vec3(0.0f); }
     bool transmits() const { return transmission != Vec3(0.0f); }
+    /// Returns whether light that arrives on the other side may be seen.
+    bool passesLight() const { return transmits() || diffuseTransmission != Vec3(0.0f); }
+    /// Returns whether light from the other side is scattered, so that light samples find it.
+    bool scattersThrough() const
+    {
+        return (transmits() && !isSmooth()) || diffuseTransmission != Vec3(0.0f);
+    }
+    bool isAnisotropic() const { return alphaTangent > 0.0f; }
     bool isDiffuse() const { return !reflects() && !transmits() && !layered; }
     bool isSmooth() const { return alpha < kSmoothAlpha; }
     /// Returns whether light samples and photons find nothing here: mirrors and clear glass.

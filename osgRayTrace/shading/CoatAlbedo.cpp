@@ -50,6 +50,47 @@ double albedoOf(double cosine, double alpha, float eta)
     return sum / (turns * heights);
 }
 
+/// Returns the cosine at which total reflection ends, 0 if there is none or if it is all but
+/// grazing.
+double bendOf(double eta)
+{
+    constexpr double kLeastBend = 0.05;
+    const double bend = std::sqrt(std::max(1.0 - eta * eta, 0.0));
+    return eta < 1.0 && bend > kLeastBend ? bend : 0.0;
+}
+
+/// Returns the cosine of a place between two nodes of a row: the inverse of coatRowAlbedo's and
+/// bentRowAlbedo's steps, x in [0, 1].
+double cosineAt(double x, double bend)
+{
+    if (bend == 0.0) return x * x;
+    const double u = 2.0 * x;
+    if (u < 0.5) return bend * 2.0 * u * u;
+    if (u < 1.0) return bend * (1.0 - 2.0 * (1.0 - u) * (1.0 - u));
+    return bend + (1.0 - bend) * (u - 1.0) * (u - 1.0);
+}
+
+/// Returns int 2 E c dc for the interpolated E, by the midpoint rule in fine steps.
+double averageOf(const CoatAlbedoRow& row)
+{
+    constexpr int kSteps = kCoatSteps * 16;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i)
+    {
+        const double x = (i + 0.5) / kSteps;
+        if (row.bend == 0.0f)
+        {
+            sum += row(static_cast<float>(x * x)) * 4.0 * x * x * x;
+            continue;
+        }
+        const double low = cosineAt(double(i) / kSteps, double(row.bend));
+        const double high = cosineAt((i + 1.0) / kSteps, double(row.bend));
+        sum += row(static_cast<float>(cosineAt(x, double(row.bend)))) * (high * high - low * low) *
+               kSteps;
+    }
+    return sum / kSteps;
+}
+
 } // namespace
 
 std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
@@ -72,13 +113,15 @@ void CoatAlbedo::makeRow(int row)
     constexpr int kSteps = kCoatSteps, kFine = 4; // kFine: steps between two nodes
     const double roughness = double(row) / kRoughnessSteps;
     const double alpha = std::max(roughness * roughness, double(kSmoothAlpha));
+    const double bend = bendOf(double(_eta));
     double fine[kSteps * kFine + 1];
     for (int i = 0; i <= kSteps * kFine; ++i)
     {
         const double x = double(i) / (kSteps * kFine);
-        fine[i] = albedoOf(std::max(x * x, 1e-6), alpha, _eta);
+        fine[i] = albedoOf(std::clamp(cosineAt(x, bend), 1e-6, 1.0), alpha, _eta);
     }
     CoatAlbedoRow& result = _rows[static_cast<std::size_t>(row)];
+    result.bend = static_cast<float>(bend);
     for (int i = 0; i <= kSteps; ++i)
         result.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
     // The interpolated value is never less than the albedo, also at the bend that total reflection
@@ -97,15 +140,7 @@ void CoatAlbedo::makeRow(int row)
         }
     }
     result.albedo[kSteps + 1] = result.albedo[kSteps];
-    // The average is int 2 E c dc with c = x^2, for the interpolated E: the midpoint rule in fine
-    // steps.
-    double sum = 0.0;
-    for (int i = 0; i < kSteps * 16; ++i)
-    {
-        const double x = (i + 0.5) / (kSteps * 16);
-        sum += result(static_cast<float>(x * x)) * 4.0 * x * x * x;
-    }
-    result.average = static_cast<float>(sum / (kSteps * 16));
+    result.average = static_cast<float>(averageOf(result));
     _made[static_cast<std::size_t>(row)] = true;
 }
 

@@ -1,5 +1,4 @@
-// Ggx.h - the isotropic GGX microfacet distribution in a frame with the normal at +z. Layer:
-// shading.
+// Ggx.h - the GGX microfacet distribution in a frame with the normal at +z. Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -64,6 +63,51 @@ inline Vec3 sampleGgxVisible(Vec3 wo, float alpha, float u, float v)
 inline float pdfGgxVisible(Vec3 wo, Vec3 h, float alpha)
 {
     return ggxG1(wo, alpha) * std::fmax(glm::dot(wo, h), 0.0f) * evalGgx(h, alpha) / wo.z;
+}
+
+/// Holds the GGX widths along x and y. Where both are equal, the functions are those of one width.
+struct GgxWidths
+{
+    float x, y;
+    bool isRound() const { return x == y; }
+};
+
+/// Returns the density of microfacet normals [1/sr] [Heitz18, eq. 1].
+inline float evalGgx(Vec3 h, GgxWidths alpha)
+{
+    if (alpha.isRound()) return evalGgx(h, alpha.x);
+    const float x = h.x / alpha.x, y = h.y / alpha.y;
+    const float d = x * x + y * y + h.z * h.z;
+    return 1.0f / (kPi * alpha.x * alpha.y * d * d);
+}
+
+/// Returns Smith's Lambda [Heitz18, eq. 2].
+inline float ggxLambda(Vec3 w, GgxWidths alpha)
+{
+    if (alpha.isRound()) return ggxLambda(w, alpha.x);
+    const float cos2 = w.z * w.z, x = alpha.x * w.x, y = alpha.y * w.y;
+    if (cos2 <= 0.0f) return std::numeric_limits<float>::max();
+    return 0.5f * (std::sqrt(1.0f + (x * x + y * y) / cos2) - 1.0f);
+}
+
+inline float ggxG1(Vec3 w, GgxWidths alpha)
+{
+    return 1.0f / (1.0f + ggxLambda(w, alpha));
+}
+
+inline float ggxG2(Vec3 wo, Vec3 wi, GgxWidths alpha)
+{
+    return 1.0f / (1.0f + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));
+}
+
+/// Returns a microfacet normal visible from wo (wo.z > 0): spherical caps [Dupuy23, listing 3] in
+/// the space in which the distribution is a sphere [Heitz18, sect. 3].
+inline Vec3 sampleGgxVisible(Vec3 wo, GgxWidths alpha, float u, float v)
+{
+    if (alpha.isRound()) return sampleGgxVisible(wo, alpha.x, u, v);
+    const Vec3 round =
+        sampleGgxVisible(glm::normalize(Vec3(alpha.x * wo.x, alpha.y * wo.y, wo.z)), 1.0f, u, v);
+    return glm::normalize(Vec3(alpha.x * round.x, alpha.y * round.y, round.z));
 }
 
 } // namespace osgRayTrace::engine

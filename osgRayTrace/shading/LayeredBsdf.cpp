@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LayeredBsdf.h"
 
-#include "osgRayTrace/shading/Fresnel.h"
-#include "osgRayTrace/shading/Sheen.h"
+#include "osgRayTrace/shading/LayeredTerms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,92 +13,25 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kClearcoatIndex = 1.5f;
-
-float largestOf(Vec3 v)
+/// Returns the widths of the facets along the tangent and across.
+GgxWidths widthsOf(const Bsdf& b)
 {
-    return std::max(v.x, std::max(v.y, v.z));
+    return {b.isAnisotropic() ? b.alphaTangent : b.alpha, b.alpha};
 }
 
-bool hasSheen(const Bsdf& b)
+/// Returns a direction in the frame of the facets, whose x axis is the tangent.
+Vec3 toFacets(const Bsdf& b, Vec3 w)
 {
-    return b.sheen != Vec3(0.0f) && !b.inside;
+    if (!b.isAnisotropic()) return w;
+    const Vec2 t = b.tangent;
+    return {w.x * t.x + w.y * t.y, w.y * t.x - w.x * t.y, w.z};
 }
 
-bool hasClearcoat(const Bsdf& b)
+Vec3 fromFacets(const Bsdf& b, Vec3 w)
 {
-    return b.clearcoat > 0.0f && !b.inside;
-}
-
-bool isClearcoatSmooth(const Bsdf& b)
-{
-    return b.clearcoatAlpha < kSmoothAlpha;
-}
-
-/// Returns what the sheen leaves to the layers below it: Ss.
-float belowSheen(const Bsdf& b, float cosTheta)
-{
-    if (b.sheen == Vec3(0.0f)) return 1.0f;
-    return std::max(0.0f, 1.0f - largestOf(b.sheen) * sheenAlbedo(b.sheenAlpha, cosTheta));
-}
-
-float clearcoatAlbedo(const Bsdf& b, float cosTheta)
-{
-    if (!b.clearcoatRows) return fresnelDielectric(cosTheta, kClearcoatIndex);
-    const float first = b.clearcoatRows[0](cosTheta), second = b.clearcoatRows[1](cosTheta);
-    return first + (second - first) * b.clearcoatFraction;
-}
-
-/// Returns what sheen and clear coat leave: S, for a direction outside of the body.
-float belowLayers(const Bsdf& b, float cosTheta)
-{
-    const float below = belowSheen(b, cosTheta);
-    return b.clearcoat > 0.0f ? below * (1.0f - b.clearcoat * clearcoatAlbedo(b, cosTheta)) : below;
-}
-
-/// Returns F' of one face whose reflectance is F.
-Vec3 tinted(const Bsdf& b, float fresnel)
-{
-    const float root = (b.eta - 1.0f) / (b.eta + 1.0f), normal = root * root;
-    const float share = (fresnel - normal) / (1.0f - normal);
-    const Vec3 raised = b.normalReflectance + (Vec3(1.0f) - b.normalReflectance) * share;
-    return b.specular * glm::clamp(raised, 0.0f, 1.0f);
-}
-
-/// Returns the reflectance of the wall with faces of a reflectance; of one face for solid bodies.
-Vec3 ofWall(const Bsdf& b, Vec3 face)
-{
-    return b.thin ? 2.0f * face / (Vec3(1.0f) + face) : face;
-}
-
-/// Returns the reflectance of the dielectric interface for one cosine: F'.
-Vec3 interfaceFresnel(const Bsdf& b, float cosTheta)
-{
-    if (b.coat == 0.0f) return Vec3(0.0f);
-    return ofWall(b, tinted(b, fresnelDielectric(cosTheta, b.eta)));
-}
-
-Vec3 reflectionFresnel(const Bsdf& b, float cosTheta)
-{
-    return fresnelSchlick(cosTheta, b.reflectance, b.grazing) +
-           b.coat * interfaceFresnel(b, cosTheta);
-}
-
-/// Returns what the interface leaves to the base: 1 - E'. F' is affine in F, so a rough interface
-/// reflects F' of its albedo or, if R is less than F0, at most specular times its albedo.
-float belowInterface(const Bsdf& b, float cosTheta)
-{
-    if (b.coat == 0.0f) return 1.0f;
-    if (!b.coatRows) return 1.0f - largestOf(interfaceFresnel(b, cosTheta));
-    const float first = b.coatRows[0](cosTheta), second = b.coatRows[1](cosTheta);
-    const float albedo = first + (second - first) * b.coatFraction;
-    return 1.0f - largestOf(ofWall(b, glm::max(tinted(b, albedo), Vec3(b.specular * albedo))));
-}
-
-/// Returns what reaches the base from a direction on the side of wo: A.
-float aboveBase(const Bsdf& b, float cosTheta)
-{
-    return belowInterface(b, cosTheta) * (b.inside ? 1.0f : belowLayers(b, cosTheta));
+    if (!b.isAnisotropic()) return w;
+    const Vec2 t = b.tangent;
+    return {w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z};
 }
 
 /// Returns whether light passes the interface by a delta lobe; as for surfaces without layers.
@@ -108,13 +40,6 @@ bool transmitsSmoothly(const Bsdf& b, Vec3 wo)
     constexpr float kSmoothBend = 3e-5f;
     if (b.isSmooth()) return true;
     return !b.thin && std::fabs(b.eta - 1.0f) * b.alpha < kSmoothBend * wo.z * wo.z;
-}
-
-/// Returns the factor of what passes between wo and a direction on the other side.
-float passedLayers(const Bsdf& b, float cosO, float cosI)
-{
-    if (b.thin) return std::min(belowLayers(b, cosO), belowLayers(b, cosI));
-    return belowLayers(b, b.inside ? cosI : cosO);
 }
 
 float reflectedLayers(const Bsdf& b, float cosO, float cosI)
@@ -132,6 +57,7 @@ float refractionScale(const Bsdf& b, Transport transport)
 struct LobePmf
 {
     float sheen = 0.0f, clearcoat = 0.0f, base = 0.0f;
+    float through = 0.0f;   ///< diffuse transmission
     float interface = 0.0f; ///< reflection and transmission
     bool any = false;
 };
@@ -144,15 +70,18 @@ LobePmf lobePmf(const Bsdf& b, Vec3 wo)
         pmf.clearcoat = b.clearcoat * clearcoatAlbedo(b, wo.z) * belowSheen(b, wo.z);
     const float below = b.inside ? 1.0f : belowLayers(b, wo.z);
     const Vec3 fresnel = interfaceFresnel(b, wo.z);
-    pmf.base = luminance(b.diffuse) * belowInterface(b, wo.z) * below;
+    const float toBase = belowInterface(b, wo.z);
+    pmf.base = luminance(b.diffuse) * toBase * below;
+    pmf.through = luminance(b.diffuseTransmission) * toBase * below;
     pmf.interface = (luminance(reflectionFresnel(b, wo.z)) +
                      luminance(b.transmission * (Vec3(1.0f) - fresnel))) *
                     below;
-    const float sum = pmf.sheen + pmf.clearcoat + pmf.base + pmf.interface;
+    const float sum = pmf.sheen + pmf.clearcoat + pmf.base + pmf.interface + pmf.through;
     if (!(sum > 0.0f)) return {};
     pmf.sheen /= sum;
     pmf.clearcoat /= sum;
     pmf.base /= sum;
+    pmf.through /= sum;
     pmf.interface /= sum;
     pmf.any = true;
     return pmf;
@@ -175,7 +104,7 @@ struct Facet
     float pdfW = 0.0f;
 };
 
-Facet facetOf(Vec3 wo, Vec3 wi, float alpha)
+template <class Width> Facet facetOf(Vec3 wo, Vec3 wi, Width alpha)
 {
     Facet facet;
     const Vec3 sum = wo + wi;
@@ -207,7 +136,7 @@ void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue&
     }
     if (b.reflects() && !b.isSmooth())
     {
-        const Facet facet = facetOf(wo, wi, b.alpha);
+        const Facet facet = facetOf(wo, wi, widthsOf(b));
         const float share = reflectedShare(b, transmitsSmoothly(b, wo) ? wo.z : facet.cosH);
         value.fCos +=
             reflectionFresnel(b, facet.cosH) * (facet.value * reflectedLayers(b, wo.z, wi.z));
@@ -215,10 +144,18 @@ void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue&
     }
 }
 
+/// Adds light that the base diffuses to the other side.
+void addDiffused(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
+{
+    value.fCos += b.diffuseTransmission *
+                  (kInvPi * -wi.z * aboveBase(b, -wi.z) * aboveBase(b, wo.z) / b.baseAverage);
+    value.pdfW += pmf.through * squareToCosineHemispherePdf(-wi.z);
+}
+
 /// Adds light that passes the facets of a rough thin wall: their reflection, on the other side.
 void addThrough(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
 {
-    const Facet facet = facetOf(wo, Vec3(wi.x, wi.y, -wi.z), b.alpha);
+    const Facet facet = facetOf(wo, Vec3(wi.x, wi.y, -wi.z), widthsOf(b));
     const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, facet.cosH));
     value.fCos += passed * (facet.value * passedLayers(b, wo.z, -wi.z));
     value.pdfW += pmf.interface * (1.0f - reflectedShare(b, facet.cosH)) * facet.pdfW;
@@ -235,12 +172,13 @@ void addRefraction(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transpor
     if (h.z < 0.0f) h = -h;
     const float cosO = glm::dot(wo, h), cosI = glm::dot(wi, h);
     if (cosO <= 0.0f || cosI >= 0.0f) return;
-    const float d = evalGgx(h, b.alpha) * cosO / wo.z;
+    const GgxWidths alpha = widthsOf(b);
+    const float d = evalGgx(h, alpha) * cosO / wo.z;
     const float jacobian = b.eta * b.eta * -cosI / length2;
-    const float g1 = ggxG1(wo, b.alpha);
+    const float g1 = ggxG1(wo, alpha);
     const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosO));
-    value.fCos += passed * (d * g1 * ggxG1(-wi, b.alpha) * jacobian *
-                            refractionScale(b, transport) * passedLayers(b, wo.z, -wi.z));
+    value.fCos += passed * (d * g1 * ggxG1(-wi, alpha) * jacobian * refractionScale(b, transport) *
+                            passedLayers(b, wo.z, -wi.z));
     value.pdfW += pmf.interface * (1.0f - reflectedShare(b, cosO)) * g1 * d * jacobian;
 }
 
@@ -278,7 +216,7 @@ std::optional<BsdfSample> sampleInterface(const Bsdf& b, Vec3 wo, float uShare, 
                                           float v, Transport transport)
 {
     const bool smooth = transmitsSmoothly(b, wo);
-    const Vec3 h = b.isSmooth() ? Vec3(0.0f, 0.0f, 1.0f) : sampleGgxVisible(wo, b.alpha, u, v);
+    const Vec3 h = b.isSmooth() ? Vec3(0.0f, 0.0f, 1.0f) : sampleGgxVisible(wo, widthsOf(b), u, v);
     const float cosH = glm::dot(wo, h);
     const float share = reflectedShare(b, smooth ? wo.z : cosH);
     const bool reflect = share >= 1.0f || uShare < share;
@@ -306,15 +244,16 @@ std::optional<BsdfSample> sampleInterface(const Bsdf& b, Vec3 wo, float uShare, 
     return sample;
 }
 
-} // namespace
-
-std::optional<BsdfSample> sampleLayered(const Bsdf& b, Vec3 wo, float uLobe, float u, float v,
-                                        Transport transport)
+/// Returns a direction in the frame of the facets, nothing if there is none. The result is complete
+/// if it is a delta lobe; otherwise its density and weight are not set.
+std::optional<BsdfSample> sampleFacets(const Bsdf& b, Vec3 wo, float uLobe, float u, float v,
+                                       Transport transport)
 {
     const LobePmf pmf = lobePmf(b, wo);
     if (!pmf.any) return std::nullopt;
     BsdfSample sample;
     const float cosine = pmf.sheen + pmf.base, coated = cosine + pmf.clearcoat;
+    const float interface = coated + pmf.interface;
     if (uLobe < cosine)
     {
         sample.wi = squareToCosineHemisphere(u, v);
@@ -328,36 +267,54 @@ std::optional<BsdfSample> sampleLayered(const Bsdf& b, Vec3 wo, float uLobe, flo
         sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
         if (!(sample.wi.z > 0.0f)) return std::nullopt;
     }
+    else if (pmf.through > 0.0f && uLobe >= interface)
+    {
+        sample.wi = -squareToCosineHemisphere(u, v);
+        if (!(sample.wi.z < 0.0f)) return std::nullopt;
+        sample.transmitted = true;
+    }
     else
     {
         if (!(pmf.interface > 0.0f)) return std::nullopt;
         const float uShare = std::min((uLobe - coated) / pmf.interface, 1.0f - 0x1p-24f);
-        const std::optional<BsdfSample> found =
-            sampleInterface(b, wo, uShare, pmf.interface, u, v, transport);
-        if (!found || found->delta) return found;
-        sample = *found;
+        return sampleInterface(b, wo, uShare, pmf.interface, u, v, transport);
     }
-    const BsdfValue value = evalLayered(b, wo, sample.wi, transport);
-    if (!(value.pdfW > 0.0f)) return std::nullopt;
-    sample.pdfW = value.pdfW;
-    sample.weight = value.fCos / value.pdfW;
     return sample;
 }
 
-BsdfValue evalLayered(const Bsdf& b, Vec3 wo, Vec3 wi, Transport transport)
+} // namespace
+
+std::optional<BsdfSample> sampleLayered(const Bsdf& b, Vec3 wo, float uLobe, float u, float v,
+                                        Transport transport)
 {
+    std::optional<BsdfSample> sample = sampleFacets(b, toFacets(b, wo), uLobe, u, v, transport);
+    if (!sample) return std::nullopt;
+    sample->wi = fromFacets(b, sample->wi);
+    if (sample->delta) return sample;
+    const BsdfValue value = evalLayered(b, wo, sample->wi, transport);
+    if (!(value.pdfW > 0.0f)) return std::nullopt;
+    sample->pdfW = value.pdfW;
+    sample->weight = value.fCos / value.pdfW;
+    return sample;
+}
+
+BsdfValue evalLayered(const Bsdf& b, Vec3 localO, Vec3 localI, Transport transport)
+{
+    const Vec3 wo = toFacets(b, localO), wi = toFacets(b, localI);
     BsdfValue value;
     const LobePmf pmf = lobePmf(b, wo);
     if (!pmf.any) return value;
     if (wi.z > 0.0f)
-        addSameSide(b, wo, wi, pmf, value);
-    else if (b.transmits() && !transmitsSmoothly(b, wo))
     {
-        if (b.thin)
-            addThrough(b, wo, wi, pmf, value);
-        else
-            addRefraction(b, wo, wi, pmf, transport, value);
+        addSameSide(b, wo, wi, pmf, value);
+        return value;
     }
+    if (b.diffuseTransmission != Vec3(0.0f)) addDiffused(b, wo, wi, pmf, value);
+    if (!b.transmits() || transmitsSmoothly(b, wo)) return value;
+    if (b.thin)
+        addThrough(b, wo, wi, pmf, value);
+    else
+        addRefraction(b, wo, wi, pmf, transport, value);
     return value;
 }
 
@@ -372,26 +329,6 @@ SpecularLobes layeredLobes(const Bsdf& b, Vec3 wo)
     lobes.refracted = *passed;
     lobes.refraction = passedShare(b, wo, *passed, Transport::Radiance);
     return lobes;
-}
-
-float baseAverageOf(const Bsdf& b)
-{
-    constexpr int kSteps = 64;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i)
-    {
-        // The integral is int A dx with x = c^2, refined towards grazing by x = s^2.
-        const double s = (i + 0.5) / kSteps;
-        sum += aboveBase(b, static_cast<float>(s)) * 2.0 * s;
-    }
-    return static_cast<float>(std::max(sum / kSteps, 1e-6));
-}
-
-Vec3 straightTransmittance(const Bsdf& b, float cosTheta)
-{
-    if (!b.thin || !b.isSmooth() || !b.transmits()) return Vec3(0.0f);
-    return b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosTheta)) *
-           passedLayers(b, cosTheta, cosTheta);
 }
 
 } // namespace osgRayTrace::engine

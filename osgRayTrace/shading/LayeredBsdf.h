@@ -1,4 +1,4 @@
-// LayeredBsdf.h - surfaces with a clear coat, sheen, a thin wall or a reflectance of their own.
+// LayeredBsdf.h - surfaces with layers, thin walls, anisotropy or a reflectance of their own.
 // Layer: shading.
 // SPDX-License-Identifier: MIT
 #pragma once
@@ -16,6 +16,7 @@ namespace osgRayTrace::engine
 ///     + clearcoat Fc D G2 / (4 |wi.z wo.z|) min(Ss(wi), Ss(wo))
 ///     + reflection and transmission of Bsdf, with F', times min(S(wi), S(wo))
 ///     + diffuse/pi A(wi) A(wo) / A_avg
+///     + diffuseTransmission/pi A(-wi) A(wo) / A_avg                for wi on the other side
 ///
 ///   Ss = 1 - max(sheen) Es        what the sheen leaves, Es from SheenAlbedo  [Estevez17, sect. 3]
 ///   S  = Ss (1 - clearcoat Ec)    what sheen and clear coat leave
@@ -31,6 +32,13 @@ namespace osgRayTrace::engine
 /// faces: light that goes to and fro between them makes 2 F' / (1 + F') of F', and the rest passes
 /// without being bent, spread by rough walls as their reflection is, on the other side. Within a
 /// body the layers are on the other side: light that leaves gets S of its direction outside.
+///
+/// A share of the surface, film, has the reflectance of ThinFilm.h in place of F' and of the
+/// metal's S. D and G2 of the interface have the width alphaTangent along tangent [Heitz18, eq. 1,
+/// 2]; the base below gets what the smaller width leaves, which is no more than there is. Light
+/// that is diffused to the other side leaves through an interface of the same kind, as from a leaf.
+/// If the surface is that of a clear body, too, the terms of both sides differ, and diffuse
+/// transmission is not the same both ways there.
 std::optional<BsdfSample> sampleLayered(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                         Transport transport);
 BsdfValue evalLayered(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport);
@@ -38,6 +46,10 @@ SpecularLobes layeredLobes(const Bsdf& bsdf, Vec3 wo);
 
 /// Returns A_avg of a surface, for the member of that name, by quadrature.
 float baseAverageOf(const Bsdf& bsdf);
+
+/// Returns the least a for which a film makes at most F' + a (1 - F') of F', for the member of that
+/// name, at 33 angles.
+float filmRiseOf(const Bsdf& bsdf);
 
 /// Returns the share of the light that passes a smooth thin wall straight, for a direction with
 /// this cosine to the normal.

@@ -127,6 +127,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         record.sameLobes = textureOf(material, kMetallicRoughnessRole) == kInvalid &&
                            textureOf(material, kClearcoatRole) == kInvalid &&
                            textureOf(material, kClearcoatRoughnessRole) == kInvalid &&
+                           textureOf(material, kAnisotropyRole) == kInvalid &&
                            material.vertexColorUse != VertexColorUse::Specular &&
                            !(texelsDecide && isTextured(material)); // a texel may be black
         if (!isInvisible(material)) // invisible: not traced, so that no photons are guided to it
@@ -157,14 +158,18 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
     {
         const Coat& coat = _coats[material][point.front || !bsdf.transmits() || bsdf.thin ? 0 : 1];
         bsdf.coatAverage = coat.average;
-        if (coat.rough && !bsdf.isSmooth() && bsdf.diffuse != Vec3(0.0f))
+        const bool base = bsdf.diffuse != Vec3(0.0f) || bsdf.diffuseTransmission != Vec3(0.0f);
+        if (coat.rough && !bsdf.isSmooth() && base)
         {
             const CoatAlbedo::Place place = coat.rough->at(std::sqrt(bsdf.alpha));
             bsdf.coatRows = place.rows;
             bsdf.coatFraction = place.fraction;
         }
     }
-    if (bsdf.layered && bsdf.diffuse != Vec3(0.0f)) bsdf.baseAverage = baseAverageOf(bsdf);
+    if (!bsdf.layered || (bsdf.diffuse == Vec3(0.0f) && bsdf.diffuseTransmission == Vec3(0.0f)))
+        return bsdf;
+    if (bsdf.film > 0.0f && bsdf.coatRows) bsdf.filmRise = filmRiseOf(bsdf);
+    bsdf.baseAverage = baseAverageOf(bsdf);
     return bsdf;
 }
 
@@ -173,7 +178,9 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     if (m.model != MaterialModel::Physical)
         return {0.0f, {}}; // fixed-function materials have no coat
     Coat coat{fresnelDielectricAverage(eta), {}};
-    const bool base = eta != 1.0f && m.metallic < 1.0f && m.baseColor != Vec3(0.0f) &&
+    const bool colored =
+        m.baseColor != Vec3(0.0f) || (m.detail && m.detail->diffuseTransmission > 0.0f);
+    const bool base = eta != 1.0f && m.metallic < 1.0f && colored &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
     if (!base || roughness * roughness < kSmoothAlpha) return coat;

@@ -112,6 +112,10 @@ private:
     Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
     Vec4 textureOr(const Material& material, TextureRole role, const MaterialPoint& point) const;
     Bsdf physical(const Material& material, const MaterialPoint& point) const;
+    void addAnisotropy(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
+    void addDiffuseTransmission(const Material& material, const MaterialPoint& point,
+                                Bsdf& bsdf) const;
+    void addFilm(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addLayers(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     Bsdf fixedFunction(const Material& material, const MaterialPoint& point) const;
     void prepareClearcoat(const Material& material);

@@ -25,7 +25,8 @@ void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
     record.pane =
         detail.thinWalled && m.transmission > 0.0f && m.metallic < 1.0f &&
         (m.roughness * m.roughness < kSmoothAlpha || m.metallicRoughnessTexture != kInvalid);
-    record.absorbs = detail.absorbs() && m.transmission > 0.0f;
+    record.absorbs =
+        detail.absorbs() && (m.transmission > 0.0f || detail.diffuseTransmission > 0.0f);
     constexpr float kLeastColor = 1e-6f;
     if (record.absorbs)
         record.absorption =
@@ -73,6 +74,9 @@ void MaterialTable::addLayers(const Material& m, const MaterialPoint& point, Bsd
     bsdf.sheen = clampUnit(d.sheenColor * Vec3(textureOr(m, kSheenColorRole, point)));
     bsdf.layered = bsdf.thin || bsdf.specular != 1.0f || specularColor != Vec3(1.0f) ||
                    bsdf.clearcoat > 0.0f || bsdf.sheen != Vec3(0.0f);
+    if (d.anisotropy > 0.0f) addAnisotropy(m, point, bsdf);
+    if (d.diffuseTransmission > 0.0f) addDiffuseTransmission(m, point, bsdf);
+    if (d.iridescence > 0.0f) addFilm(m, point, bsdf);
     if (bsdf.sheen != Vec3(0.0f))
     {
         const float roughness =
@@ -88,6 +92,67 @@ void MaterialTable::addLayers(const Material& m, const MaterialPoint& point, Bsd
     const CoatAlbedo::Place place = _clearcoat->at(roughness);
     bsdf.clearcoatRows = place.rows;
     bsdf.clearcoatFraction = place.fraction;
+}
+
+/// Stretches reflections along one direction, which the tangent holds in the axes of texture
+/// coordinates: see alignTangent [glTF20, KHR_materials_anisotropy].
+void MaterialTable::addAnisotropy(const Material& m, const MaterialPoint& point, Bsdf& bsdf) const
+{
+    const MaterialDetail& d = *m.detail;
+    Vec2 direction(1.0f, 0.0f);
+    float strength = d.anisotropy;
+    if (d.textures[kAnisotropyRole] != kInvalid)
+    {
+        const Vec4 texel = textureOr(m, kAnisotropyRole, point);
+        const Vec2 turned = 2.0f * Vec2(texel) - Vec2(1.0f);
+        const float length = glm::length(turned);
+        if (length > 1e-4f) direction = turned / length;
+        strength *= glm::clamp(texel.z, 0.0f, 1.0f);
+    }
+    if (!(strength > 0.0f)) return;
+    const float cosine = std::cos(d.anisotropyRotation), sine = std::sin(d.anisotropyRotation);
+    bsdf.tangent =
+        Vec2(cosine * direction.x - sine * direction.y, sine * direction.x + cosine * direction.y);
+    bsdf.alpha = std::max(bsdf.alpha, kSmoothAlpha);
+    bsdf.alphaTangent = bsdf.alpha + (1.0f - bsdf.alpha) * strength * strength;
+    bsdf.layered = true;
+}
+
+/// Diffuses a share of the light to the other side [glTF20, KHR_materials_diffuse_transmission].
+void MaterialTable::addDiffuseTransmission(const Material& m, const MaterialPoint& point,
+                                           Bsdf& bsdf) const
+{
+    const MaterialDetail& d = *m.detail;
+    const float share = glm::clamp(
+        d.diffuseTransmission * textureOr(m, kDiffuseTransmissionRole, point).w, 0.0f, 1.0f);
+    if (!(share > 0.0f)) return;
+    const Vec3 color = clampUnit(d.diffuseTransmissionColor *
+                                 Vec3(textureOr(m, kDiffuseTransmissionColorRole, point)));
+    const float metallic =
+        std::clamp(m.metallic * textureOr(m, kMetallicRoughnessRole, point).z, 0.0f, 1.0f);
+    const float transmission =
+        std::clamp(m.transmission * textureOr(m, kTransmissionRole, point).x, 0.0f, 1.0f);
+    bsdf.diffuseTransmission = color * ((1.0f - metallic) * (1.0f - transmission) * share);
+    bsdf.diffuse *= 1.0f - share;
+    bsdf.layered = true;
+}
+
+/// Lays a thin film over the surface [glTF20, KHR_materials_iridescence].
+void MaterialTable::addFilm(const Material& m, const MaterialPoint& point, Bsdf& bsdf) const
+{
+    const MaterialDetail& d = *m.detail;
+    bsdf.film = std::clamp(d.iridescence * textureOr(m, kIridescenceRole, point).x, 0.0f, 1.0f);
+    const Vec2 thickness = d.iridescenceThickness;
+    bsdf.filmThickness = thickness.x + (thickness.y - thickness.x) *
+                                           textureOr(m, kIridescenceThicknessRole, point).y;
+    bsdf.filmIor = d.iridescenceIor;
+    if (!(bsdf.film > 0.0f) || !(bsdf.filmThickness > 0.0f) || bsdf.filmIor == 1.0f)
+    {
+        bsdf.film = 0.0f;
+        return;
+    }
+    bsdf.coat = 1.0f - bsdf.grazing; // a film is seen also over a body of the index of air
+    bsdf.layered = true;
 }
 
 /// Makes the albedos of a rough clear coat, whose index is 1.5 [glTF20, KHR_materials_clearcoat].

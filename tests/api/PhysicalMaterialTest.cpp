@@ -137,6 +137,14 @@ TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them"
     CHECK(material->getClearcoatRoughness() == 0.0f);
     CHECK(material->getSheenColor() == osg::Vec3());
     CHECK(material->getSheenRoughness() == 0.0f);
+    CHECK(material->getAnisotropy() == 0.0f);
+    CHECK(material->getAnisotropyRotation() == 0.0f);
+    CHECK(material->getDiffuseTransmission() == 0.0f);
+    CHECK(material->getDiffuseTransmissionColor() == osg::Vec3(1.0f, 1.0f, 1.0f));
+    CHECK(material->getIridescence() == 0.0f);
+    CHECK(material->getIridescenceIor() == 1.3f);
+    CHECK(material->getIridescenceThicknessMinimum() == 100.0f);
+    CHECK(material->getIridescenceThicknessMaximum() == 400.0f);
 
     material->setAttenuationDistance(-1.0f);
     CHECK(material->getAttenuationDistance() == 0.0f);
@@ -159,7 +167,7 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
 {
     const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
     std::vector<osg::ref_ptr<PhysicalMaterial>> all;
-    for (int i = 0; i < 11 + 12 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
+    for (int i = 0; i < 11 + 20 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
     {
         all.push_back(new PhysicalMaterial);
     }
@@ -185,7 +193,15 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
     all[20]->setClearcoatRoughness(0.5f);
     all[21]->setSheenColor(osg::Vec3(0.5f, 0.0f, 0.0f));
     all[22]->setSheenRoughness(0.5f);
-    std::size_t next = 23;
+    all[23]->setAnisotropy(0.5f);
+    all[24]->setAnisotropyRotation(0.5f);
+    all[25]->setDiffuseTransmission(0.5f);
+    all[26]->setDiffuseTransmissionColor(osg::Vec3(0.5f, 1.0f, 1.0f));
+    all[27]->setIridescence(0.5f);
+    all[28]->setIridescenceIor(1.5f);
+    all[29]->setIridescenceThicknessMinimum(200.0f);
+    all[30]->setIridescenceThicknessMaximum(500.0f);
+    std::size_t next = 31;
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);

@@ -57,6 +57,45 @@ TEST_CASE("physical material: details are there only where some parameter needs 
     CHECK_FALSE(sameMaterial(thin, full));
 }
 
+TEST_CASE("physical material: anisotropy, diffuse transmission and films", "[bridge]")
+{
+    const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+    physical->setAnisotropyRotation(2.0f); // nothing without the strengths
+    physical->setDiffuseTransmissionColor(osg::Vec3(0.1f, 0.2f, 0.3f));
+    physical->setIridescenceIor(1.6f);
+    physical->setIridescenceThicknessMinimum(150.0f);
+    physical->setIridescenceThicknessMaximum(650.0f);
+    CHECK_FALSE(materialOf(triangleGeometry(), physical).detail);
+
+    physical->setAnisotropy(0.25f);
+    const auto bare = triangleGeometry(), mapped = triangleGeometry(), brushed = triangleGeometry();
+    mapped->setTexCoordArray(0, new osg::Vec2Array(3));
+    brushed->setVertexAttribArray(6, new osg::Vec4Array(3), osg::Array::BIND_PER_VERTEX);
+    CHECK(materialOf(bare, physical).detail->anisotropy == 0.0f); // there is no direction
+    CHECK(countOf(convertGraph(bare), "approximated.no-texture-coordinates") == 1);
+    CHECK(materialOf(mapped, physical).detail->anisotropy == 0.25f);
+    CHECK(materialOf(mapped, physical).detail->anisotropyRotation == 2.0f);
+    CHECK(materialOf(brushed, physical).detail->anisotropy == 0.25f);
+    CHECK(countOf(convertGraph(mapped), "approximated.no-texture-coordinates") == 0);
+
+    physical->setAnisotropy(0.0f);
+    physical->setDiffuseTransmission(0.5f);
+    const Material leaf = materialOf(triangleGeometry(), physical);
+    REQUIRE(leaf.detail);
+    CHECK(leaf.detail->diffuseTransmission == 0.5f);
+    CHECK(leaf.detail->diffuseTransmissionColor == Vec3(0.1f, 0.2f, 0.3f));
+    physical->setDiffuseTransmission(0.0f);
+    physical->setIridescence(0.75f);
+    const Material film = materialOf(triangleGeometry(), physical);
+    REQUIRE(film.detail);
+    CHECK(film.detail->iridescence == 0.75f);
+    CHECK(film.detail->iridescenceIor == 1.6f);
+    CHECK(film.detail->iridescenceThickness == Vec2(150.0f, 650.0f));
+    CHECK_FALSE(sameMaterial(leaf, film));
+    physical->setIridescenceThicknessMinimum(151.0f);
+    CHECK_FALSE(sameMaterial(materialOf(triangleGeometry(), physical), film));
+}
+
 TEST_CASE("physical material: vertex colours count if the material asks for them", "[bridge]")
 {
     const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;

@@ -123,6 +123,12 @@ void addDetails(PhysicalMaterial& material, Dice& dice, const float (&units)[N])
     material.setClearcoatRoughness(dice.oneOf(units));
     if (dice.oneIn(2)) material.setSheenColor(strangeVector(dice, 1.0, 6));
     material.setSheenRoughness(dice.oneOf(units));
+    if (dice.oneIn(3)) material.setAnisotropy(dice.oneOf(units));
+    if (dice.oneIn(3)) material.setAnisotropyRotation(strangeFloat(dice, 6.0, 6));
+    if (dice.oneIn(3)) material.setDiffuseTransmission(dice.oneOf(units));
+    if (dice.oneIn(3)) material.setDiffuseTransmissionColor(strangeVector(dice, 1.0, 6));
+    if (dice.oneIn(3)) material.setIridescence(dice.oneOf(units));
+    if (dice.oneIn(3)) material.setIridescenceThicknessMaximum(strangeFloat(dice, 1000.0, 3));
     if (dice.oneIn(2)) material.setNormalScale(strangeFloat(dice, 2.0, 4));
     for (int i = PhysicalMaterial::NORMAL_TEXTURE; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {

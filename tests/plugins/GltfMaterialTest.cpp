@@ -218,6 +218,42 @@ TEST_CASE("gltf: layers and volumes are the PhysicalMaterial's", "[gltf]")
     CHECK(geometryOf(*thin).getStateSet()->getMode(GL_CULL_FACE) == osg::StateAttribute::OFF);
 }
 
+TEST_CASE("gltf: anisotropy, diffuse transmission and iridescence", "[gltf]")
+{
+    Json model = modelOf(R"({ "extensions": {
+        "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1.25,
+                                      "anisotropyTexture": { "index": 0 } },
+        "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.25,
+            "diffuseTransmissionColorFactor": [1, 0.5, 0],
+            "diffuseTransmissionTexture": { "index": 0 },
+            "diffuseTransmissionColorTexture": { "index": 0 } },
+        "KHR_materials_iridescence": { "iridescenceFactor": 0.75, "iridescenceIor": 1.5,
+            "iridescenceThicknessMinimum": 200, "iridescenceThicknessMaximum": 600,
+            "iridescenceTexture": { "index": 0 },
+            "iridescenceThicknessTexture": { "index": 0 } } } })");
+    const auto scene = sceneOf(model);
+    const PhysicalMaterial& physical = *physicalOf(geometryOf(*scene));
+    CHECK(physical.getAnisotropy() == 0.5f);
+    CHECK(physical.getAnisotropyRotation() == 1.25f);
+    CHECK(physical.getDiffuseTransmission() == 0.25f);
+    CHECK(physical.getDiffuseTransmissionColor() == osg::Vec3(1, 0.5f, 0));
+    CHECK(physical.getIridescence() == 0.75f);
+    CHECK(physical.getIridescenceIor() == 1.5f);
+    CHECK(physical.getIridescenceThicknessMinimum() == 200.0f);
+    CHECK(physical.getIridescenceThicknessMaximum() == 600.0f);
+    for (int i = PhysicalMaterial::ANISOTROPY_TEXTURE;
+         i <= PhysicalMaterial::IRIDESCENCE_THICKNESS_TEXTURE; ++i)
+        CHECK(physical.getTexture(static_cast<PhysicalMaterial::TextureUse>(i)));
+    const auto plain = sceneOf(modelOf(R"({ "extensions": { "KHR_materials_anisotropy": {},
+        "KHR_materials_diffuse_transmission": {}, "KHR_materials_iridescence": {} } })"));
+    const PhysicalMaterial& defaults = *physicalOf(geometryOf(*plain));
+    CHECK(defaults.getAnisotropy() == 0.0f);
+    CHECK(defaults.getDiffuseTransmission() == 0.0f);
+    CHECK(defaults.getIridescence() == 0.0f);
+    CHECK(defaults.getIridescenceIor() == 1.3f);
+    CHECK(defaults.getIridescenceThicknessMaximum() == 400.0f);
+}
+
 TEST_CASE("gltf: the old workflow of specular colour and glossiness", "[gltf]")
 {
     const auto scene = sceneOf(modelOf(R"({ "extensions": { "KHR_materials_pbrSpecularGlossiness":

@@ -143,11 +143,14 @@ TEST_CASE("gltf: nodes are a tree, and not too deep", "[gltf]")
 TEST_CASE("gltf: extensions that are required and not known are refused by name", "[gltf]")
 {
     Json model = triangleModel();
-    model["extensionsUsed"] = {"EXT_unknown", "KHR_materials_unlit"};
+    model["extensionsUsed"] = {"EXT_unknown", "KHR_materials_unlit", "KHR_materials_dispersion",
+                               "KHR_materials_anisotropy", "KHR_materials_iridescence"};
+    model["extensionsRequired"] = {"KHR_materials_dispersion", "KHR_materials_anisotropy"};
     {
         const Listening listening;
         CHECK(refusalOf(model).empty());
-        CHECK(listening.text().find("not read: EXT_unknown\n") != std::string::npos);
+        CHECK(listening.text().find("not read: EXT_unknown, KHR_materials_dispersion\n") !=
+              std::string::npos);
     }
     model["extensionsRequired"] = {"KHR_materials_unlit", "EXT_unknown"};
     checkRefusal(model, "extensionsRequired[1]: 'EXT_unknown' is required");

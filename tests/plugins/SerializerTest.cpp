@@ -145,6 +145,14 @@ TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugin
     material->setClearcoatRoughness(0.8f);
     material->setSheenColor(osg::Vec3(0.6f, 0.0f, 1.0f));
     material->setSheenRoughness(0.3f);
+    material->setAnisotropy(0.1f);
+    material->setAnisotropyRotation(-3.3f);
+    material->setDiffuseTransmission(0.2f);
+    material->setDiffuseTransmissionColor(osg::Vec3(0.7f, 0.0f, 1.0f));
+    material->setIridescence(0.4f);
+    material->setIridescenceIor(1.1f);
+    material->setIridescenceThicknessMinimum(0.0f);
+    material->setIridescenceThicknessMaximum(1234.5f);
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);

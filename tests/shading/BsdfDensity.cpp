@@ -162,7 +162,7 @@ DensityResult testDensity(const Bsdf& bsdf, Vec3 wo, uint32_t seed, int samples)
     }
     for (int side = 0; side < 2; ++side)
     {
-        if (side == 1 && !bsdf.transmits()) break;
+        if (side == 1 && !bsdf.passesLight()) break;
         const Grid& grid = side ? below : above;
         const CellIntegral integral(bsdf, wo, grid, side == 0);
         for (std::size_t row = 0; row < kRows; ++row)

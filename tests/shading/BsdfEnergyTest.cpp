@@ -100,7 +100,7 @@ TEST_CASE("bsdf: a white base takes what its rough coat leaves, no more",
           "[shading][statistics][long]")
 {
     // In a white furnace light is lost only where the table of the coat's reflectance is too high:
-    // from inside, at the bend that total reflection makes.
+    // from inside, a little at the bend that total reflection makes.
     for (const float roughness : {0.0317f, 0.1f, 0.37f, 0.5f, 0.93f, 1.0f})
     {
         for (const float ior : {1.02f, 1.5f, 2.4f})
@@ -113,7 +113,7 @@ TEST_CASE("bsdf: a white base takes what its rough coat leaves, no more",
                     const double spread = 4.0 * share.standardError();
                     CAPTURE(kind.name, ior, cosine, share.mean(), spread);
                     CHECK(share.mean() < 1.001 + spread);
-                    if (kind.bsdf.eta > 1.0f) CHECK(share.mean() > 0.999 - spread);
+                    CHECK(share.mean() > (kind.bsdf.eta > 1.0f ? 0.999 : 0.985) - spread);
                 }
             }
         }

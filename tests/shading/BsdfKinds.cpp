@@ -198,6 +198,43 @@ std::vector<BsdfKind> layeredKinds()
              d.specular = 0.7f;
              d.specularColor = Vec3(2.0f);
          });
+    for (const float roughness : {0.1f, 0.5f})
+    {
+        const auto brushed = [](MaterialDetail& d)
+        {
+            d.anisotropy = 0.8f;
+            d.anisotropyRotation = 0.6f;
+        };
+        const std::string rough = "brushed, of roughness " + std::to_string(roughness);
+        with(rough + ", metal", physical(roughness, 1.0f, 0.0f, 1.5f), brushed);
+        if (roughness < 0.2f) continue;
+        with(rough + ", plastic", physical(roughness, 0.0f, 0.0f, 1.5f), brushed);
+        with(rough + ", half clear", physical(roughness, 0.0f, 0.5f, 1.5f), brushed);
+    }
+    for (const float roughness : {0.0f, 0.5f})
+    {
+        const std::string rough = " of roughness " + std::to_string(roughness);
+        const Material dielectric = physical(roughness, 0.0f, 0.0f, 1.5f);
+        with("leaf" + rough, dielectric, [](MaterialDetail& d) { d.diffuseTransmission = 0.6f; });
+        const auto film = [](MaterialDetail& d)
+        {
+            d.iridescence = 1.0f;
+            d.iridescenceIor = 1.8f;
+        };
+        with("film on plastic" + rough, dielectric, film);
+        if (roughness == 0.0f) continue;
+        with("film on metal" + rough, physical(roughness, 1.0f, 0.0f, 1.5f), film);
+        with("film on glass" + rough, physical(roughness, 0.0f, 1.0f, 1.5f), film);
+    }
+    with("lacquered leaf, brushed, with film", physical(0.4f, 0.1f, 0.0f, 1.5f),
+         [](MaterialDetail& d)
+         {
+             d.diffuseTransmission = 0.4f;
+             d.clearcoat = 0.5f;
+             d.clearcoatRoughness = 0.3f;
+             d.anisotropy = 0.5f;
+             d.iridescence = 0.7f;
+         });
     return kinds;
 }
 

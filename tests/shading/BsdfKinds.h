@@ -36,7 +36,8 @@ std::vector<BsdfKind> smoothKinds();
 /// Returns rough and smooth kinds.
 std::vector<BsdfKind> allKinds();
 
-/// Returns white kinds with a clear coat, sheen, thin walls or another reflectance.
+/// Returns white kinds with what LayeredBsdf.h is for: layers, thin walls, films, brushed facets
+/// and leaves.
 std::vector<BsdfKind> layeredKinds();
 
 /// Returns the kind of a material, and that from inside if it transmits.

@@ -132,7 +132,8 @@ TEST_CASE("layers: reflection and thin walls are the same both ways", "[shading]
             const Vec3 ab = evalBsdf(kind.bsdf, a, b).fCos / b.z;
             const Vec3 ba = evalBsdf(kind.bsdf, b, a).fCos / a.z;
             REQUIRE(glm::length(ab - ba) <= 2e-3f * glm::length(ab) + 1e-5f);
-            if (!kind.bsdf.thin) continue;
+            const bool leaf = kind.bsdf.passesLight() && !kind.bsdf.transmits();
+            if (!kind.bsdf.thin && !leaf) continue;
             const Vec3 through = evalBsdf(kind.bsdf, a, turned(b)).fCos / b.z;
             const Vec3 back = evalBsdf(kind.bsdf, b, turned(a)).fCos / a.z;
             REQUIRE(glm::length(through - back) <= 2e-3f * glm::length(through) + 1e-5f);
@@ -209,6 +210,90 @@ TEST_CASE("layers: a pane passes (1-R)/(1+R) straight, and tints it", "[shading]
         CHECK(lobes.reflection.y == Approx(2.0 * r / (1.0 + r)).epsilon(1e-5));
         CHECK(straightTransmittance(pane, static_cast<float>(cosine)).y ==
               Approx(lobes.refraction.y));
+    }
+}
+
+TEST_CASE("layers: brushed facets reflect by the widths along and across", "[shading]")
+{
+    MaterialDetail brushed;
+    brushed.anisotropy = 0.5f;
+    Material metal = dielectric(0.6f, 0.0f);
+    metal.metallic = 1.0f;
+    const double across = 0.36, along = across + (1.0 - across) * 0.25;
+    for (const double turn : {0.0, 0.5 * M_PI, 1.1})
+    {
+        brushed.anisotropyRotation = static_cast<float>(turn);
+        const Bsdf bsdf = withDetail(metal, brushed);
+        REQUIRE(bsdf.isAnisotropic());
+        const Vec3 up(0, 0, 1);
+        CHECK(evalBsdf(bsdf, up, up).fCos.y ==
+              Approx(0.25 / (M_PI * along * across)).epsilon(1e-5));
+        for (const double degrees : {10.0, 30.0, 60.0})
+        {
+            // Light from the side of a direction, seen from above: the facets are half as tilted.
+            const double angle = degrees * M_PI / 180.0, half = 0.5 * angle;
+            for (const bool isAlong : {true, false})
+            {
+                const double width = isAlong ? along : across;
+                const double phi = turn + (isAlong ? 0.0 : 0.5 * M_PI);
+                const double x = std::sin(half) / width, z = std::cos(half);
+                const double d = 1.0 / (M_PI * along * across * std::pow(x * x + z * z, 2));
+                const double lambda =
+                    0.5 * (std::sqrt(1.0 + std::pow(width * std::tan(angle), 2)) - 1.0);
+                const Vec3 wi = directionOf(std::cos(angle), phi);
+                CAPTURE(turn, degrees, isAlong);
+                CHECK(evalBsdf(bsdf, up, wi).fCos.y ==
+                      Approx(d / (1.0 + lambda) / 4.0).epsilon(1e-4));
+            }
+        }
+    }
+}
+
+TEST_CASE("layers: equal widths along and across are one width", "[shading]")
+{
+    Uniform random(8);
+    const GgxWidths equal{0.3f, 0.3f}, nearly{0.3f, 0.300001f};
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vec3 wo = directionOf(random.between(0.05, 1.0), random.between(0.0, 6.28));
+        const Vec3 wi = directionOf(random.between(0.05, 1.0), random.between(0.0, 6.28));
+        const float u = random(), v = random();
+        CHECK(evalGgx(wi, equal) == evalGgx(wi, 0.3f));
+        CHECK(evalGgx(wi, nearly) == Approx(evalGgx(wi, 0.3f)).epsilon(1e-4));
+        CHECK(ggxG2(wo, wi, nearly) == Approx(ggxG2(wo, wi, 0.3f)).epsilon(1e-4));
+        CHECK(glm::length(sampleGgxVisible(wo, nearly, u, v) - sampleGgxVisible(wo, 0.3f, u, v)) <
+              1e-4f);
+    }
+}
+
+TEST_CASE("layers: a white leaf keeps all light, and sends its share to the other side",
+          "[shading][statistics]")
+{
+    MaterialDetail leaf;
+    leaf.diffuseTransmission = 0.75f;
+    leaf.diffuseTransmissionColor = Vec3(1.0f, 1.0f, 0.5f);
+    for (const bool front : {true, false})
+    {
+        const Bsdf bsdf = withDetail(dielectric(0.0f, 0.0f), leaf, front);
+        CHECK(bsdf.transmittedEta() == 1.0f);
+        for (const double cosine : {1.0, 0.5, 0.1})
+        {
+            CHECK(albedoOf(bsdf, cosine, 100000, 3).agrees(1.0, 5e-4));
+            const float f = fresnelDielectric(static_cast<float>(cosine), 1.5f);
+            Estimate through, blue;
+            Uniform random(9);
+            for (int i = 0; i < 50000; ++i)
+            {
+                const float uLobe = random(), u = random(), v = random();
+                const auto sample = sampleBsdf(bsdf, directionOf(cosine, 0.4), uLobe, u, v);
+                const bool passed = sample && sample->transmitted;
+                through.add(passed ? sample->weight.y : 0.0);
+                blue.add(passed ? sample->weight.z : 0.0);
+            }
+            CAPTURE(cosine, through.mean());
+            CHECK(through.agrees(0.75 * (1.0 - f), 1e-3));
+            CHECK(blue.agrees(0.375 * (1.0 - f), 1e-3));
+        }
     }
 }
 

@@ -104,10 +104,14 @@ void hashDetail(Hasher& hasher, const MaterialDetail& detail)
 {
     hasher.add(detail.vertexColors);
     hasher.add(detail.thinWalled);
-    for (const Vec3& color : {detail.attenuationColor, detail.specularColor, detail.sheenColor})
+    for (const Vec3& color : {detail.attenuationColor, detail.specularColor, detail.sheenColor,
+                              detail.diffuseTransmissionColor})
         hasher.add(color);
-    for (const float value : {detail.attenuationDistance, detail.specular, detail.clearcoat,
-                              detail.clearcoatRoughness, detail.sheenRoughness, detail.normalScale})
+    for (const float value :
+         {detail.attenuationDistance, detail.specular, detail.clearcoat, detail.clearcoatRoughness,
+          detail.sheenRoughness, detail.normalScale, detail.anisotropy, detail.anisotropyRotation,
+          detail.diffuseTransmission, detail.iridescence, detail.iridescenceIor,
+          detail.iridescenceThickness.x, detail.iridescenceThickness.y})
         hasher.add(value);
     for (const uint32_t texture : detail.textures)
         hasher.add(texture);

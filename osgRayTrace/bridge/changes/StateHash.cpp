@@ -48,6 +48,11 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
         material.getThinWalled(), material.getAttenuationColor(), material.getAttenuationDistance(),
         material.getSpecular(), material.getSpecularColor(), material.getClearcoat(),
         material.getClearcoatRoughness(), material.getSheenColor(), material.getSheenRoughness());
+    hasher.add(material.getAnisotropy(), material.getAnisotropyRotation(),
+               material.getDiffuseTransmission(), material.getDiffuseTransmissionColor(),
+               material.getIridescence(), material.getIridescenceIor(),
+               material.getIridescenceThicknessMinimum(),
+               material.getIridescenceThicknessMaximum());
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);

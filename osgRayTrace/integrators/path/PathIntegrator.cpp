@@ -21,6 +21,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/NormalMaps.h"
+#include "osgRayTrace/accel/SurfaceTangents.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
@@ -59,10 +60,13 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                 : materials.bsdf(bounce.surface.material[i],
                                  materialPoint(tile.context, block.rays, bounce.surface, i));
         if (record.pane) dropStraightLobe(bounce.bsdfs[i]);
+        if (bounce.bsdfs[i].isAnisotropic())
+            alignTangent(*tile.context.traced, block.rays, bounce.surface, i,
+                         laneOf(bounce.normal, i), bounce.bsdfs[i]);
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
-        bounce.transmissive |= static_cast<LaneMask>(bounce.bsdfs[i].transmits()) << i;
+        bounce.transmissive |= static_cast<LaneMask>(bounce.bsdfs[i].passesLight()) << i;
     }
     dropTerminatorOffset(bounce.surface,
                          bounce.transmissive); // refraction needs the facet's own place

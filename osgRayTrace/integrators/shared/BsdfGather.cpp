@@ -98,8 +98,7 @@ void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes&
     if (!points.queries.lanes) return;
     addReflected(map, points, sums, scratch.foundLanes);
     for (const int i : lanesIn(points.queries.lanes))
-        if (points.bsdfs[i].transmits() && !points.bsdfs[i].isSmooth())
-            addTransmitted(map, points, i, sums, scratch.found);
+        if (points.bsdfs[i].scattersThrough()) addTransmitted(map, points, i, sums, scratch.found);
 }
 
 } // namespace osgRayTrace::engine

@@ -15,6 +15,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/NormalMaps.h"
+#include "osgRayTrace/accel/SurfaceTangents.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
@@ -126,7 +127,10 @@ void classify(WhittedTile& tile, ShadingBlock& block)
                          : materials.bsdf(
                                material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
-        if (!m.bsdfs[i].transmits()) continue;
+        if (m.bsdfs[i].isAnisotropic())
+            alignTangent(*tile.context.traced, block.rays, block.surface, i, laneOf(m.normal, i),
+                         m.bsdfs[i]);
+        if (!m.bsdfs[i].passesLight()) continue;
         m.transmissive |= 1u << i;
         dropTerminatorOffset(block.surface, 1u << i); // refraction depends on where the facet is
     }

@@ -62,10 +62,14 @@ private:
     void add(const MaterialDetail& d)
     {
         _values.push_back(1u + uint32_t(d.vertexColors) + 2u * uint32_t(d.thinWalled));
-        for (const Vec3& color : {d.attenuationColor, d.specularColor, d.sheenColor})
+        for (const Vec3& color :
+             {d.attenuationColor, d.specularColor, d.sheenColor, d.diffuseTransmissionColor})
             add(color);
-        for (const float value : {d.attenuationDistance, d.specular, d.clearcoat,
-                                  d.clearcoatRoughness, d.sheenRoughness, d.normalScale})
+        for (const float value :
+             {d.attenuationDistance, d.specular, d.clearcoat, d.clearcoatRoughness,
+              d.sheenRoughness, d.normalScale, d.anisotropy, d.anisotropyRotation,
+              d.diffuseTransmission, d.iridescence, d.iridescenceIor, d.iridescenceThickness.x,
+              d.iridescenceThickness.y})
             add(value);
         _values.insert(_values.end(), d.textures.begin(), d.textures.end());
         for (const TexturePlace& place : d.places)

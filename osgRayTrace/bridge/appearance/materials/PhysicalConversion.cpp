@@ -13,7 +13,9 @@ namespace
 static_assert(int(PhysicalMaterial::NUMBER_OF_TEXTURES) == int(kTextureRoles) &&
                   int(PhysicalMaterial::NORMAL_TEXTURE) == int(kNormalRole) &&
                   int(PhysicalMaterial::CLEARCOAT_TEXTURE) == int(kClearcoatRole) &&
-                  int(PhysicalMaterial::SHEEN_ROUGHNESS_TEXTURE) == int(kSheenRoughnessRole),
+                  int(PhysicalMaterial::SHEEN_ROUGHNESS_TEXTURE) == int(kSheenRoughnessRole) &&
+                  int(PhysicalMaterial::IRIDESCENCE_THICKNESS_TEXTURE) ==
+                      int(kIridescenceThicknessRole),
               "the orders are the same");
 
 Vec3 rgb(const osg::Vec3& color)
@@ -29,7 +31,8 @@ PhysicalMaterial::TextureUse useOf(uint32_t role)
 TextureContent contentOf(uint32_t role)
 {
     const bool isColor = role == kBaseColorRole || role == kEmissionRole ||
-                         role == kSpecularColorRole || role == kSheenColorRole;
+                         role == kSpecularColorRole || role == kSheenColorRole ||
+                         role == kDiffuseTransmissionColorRole;
     return isColor ? TextureContent::Color : TextureContent::Data;
 }
 
@@ -55,7 +58,9 @@ bool needsDetail(const PhysicalMaterial& source)
     return source.getVertexColors() || source.getThinWalled() ||
            source.getAttenuationDistance() > 0.0f || source.getSpecular() != 1.0f ||
            source.getSpecularColor() != osg::Vec3(1.0f, 1.0f, 1.0f) ||
-           source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3();
+           source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3() ||
+           source.getAnisotropy() > 0.0f || source.getDiffuseTransmission() > 0.0f ||
+           source.getIridescence() > 0.0f;
 }
 
 MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inputs)
@@ -72,6 +77,14 @@ MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inp
     detail.sheenColor = rgb(source.getSheenColor());
     detail.sheenRoughness = source.getSheenRoughness();
     detail.normalScale = source.getNormalScale();
+    detail.anisotropy = source.getAnisotropy();
+    detail.anisotropyRotation = source.getAnisotropyRotation();
+    detail.diffuseTransmission = source.getDiffuseTransmission();
+    detail.diffuseTransmissionColor = rgb(source.getDiffuseTransmissionColor());
+    detail.iridescence = source.getIridescence();
+    detail.iridescenceIor = source.getIridescenceIor();
+    detail.iridescenceThickness =
+        Vec2(source.getIridescenceThicknessMinimum(), source.getIridescenceThicknessMaximum());
     return detail;
 }
 
@@ -117,6 +130,14 @@ Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& i
     material.metallicRoughnessTexture = convert(kMetallicRoughnessRole);
     for (uint32_t role = kNormalRole; role < kTextureRoles; ++role)
         detail.textures[role] = convert(role);
+    if (detail.anisotropy > 0.0f && !inputs.hasTangents &&
+        !(source.getTexturePlace(PhysicalMaterial::ANISOTROPY_TEXTURE).unit == 0
+              ? inputs.hasTextureCoordinates
+              : inputs.hasSecondCoordinates))
+    {
+        detail.anisotropy = 0.0f; // there is no direction
+        lacksCoordinates = true;
+    }
     if (lacksCoordinates) report.count("approximated.no-texture-coordinates");
     if (!needsDetail(source)) return material;
     if (detail.clearcoat > 0.0f && detail.textures[kNormalRole] != kInvalid)

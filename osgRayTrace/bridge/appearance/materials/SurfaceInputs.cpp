@@ -17,6 +17,7 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius)
     inputs.isOfSolids = hasSolidsAlone(geometry, pointRadius);
     inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
     inputs.hasSecondCoordinates = isReadable(geometry.getTexCoordArray(1));
+    inputs.hasTangents = tangentArray(geometry) != nullptr;
     const osg::Array* colors = geometry.getColorArray();
     const osg::Array::Binding binding = bindingOf(colors);
     inputs.hasVertexColors =

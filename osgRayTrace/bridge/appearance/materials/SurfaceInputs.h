@@ -17,6 +17,7 @@ struct SurfaceInputs
     Vec4 overallColor{1.0f};            ///< colour as OpenGL gets it, not decoded
     bool hasTextureCoordinates = false; ///< coordinates of unit 0
     bool hasSecondCoordinates = false;  ///< coordinates of unit 1
+    bool hasTangents = false;           ///< vertex attribute 6
     bool isOfSolids = false; ///< points and lines alone, traced as solids: lit in any state
 };
 
