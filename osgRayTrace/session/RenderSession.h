@@ -18,6 +18,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -139,6 +140,10 @@ public:
     /// Returns what the first samples of the pixels met, without smooth and interior pixels. If the
     /// image was begun without keeping it, rays through the middles of the pixels find it now.
     const SurfaceMap& firstSurfaces();
+
+    /// Replaces these surfaces, in blocks of 4 x 4 pixels, by those that rays through the middles
+    /// of the pixels meet. blocks: lower left pixels, each once. firstSurfaces() has been called.
+    void findMiddles(const std::vector<std::pair<int, int>>& blocks);
 
     /// Makes the same view of another size, mostly a larger one, from an image and samples of this
     /// one's, filtered or not: see Upsample.h. Vectors of result that have the size already are

@@ -212,6 +212,19 @@ const SurfaceMap& RenderSession::firstSurfaces()
     return _state->surfaces;
 }
 
+void RenderSession::findMiddles(const std::vector<std::pair<int, int>>& blocks)
+{
+    const PassContext context = _state->contextOfPass(0);
+    _state->workers->forEach(blocks.size(),
+                             [&](std::size_t i)
+                             {
+                                 const auto [left, bottom] = blocks[i];
+                                 SurfaceBlock seen;
+                                 engine::firstSurfaces(context, left, bottom, 0, seen);
+                                 setBlock(left, bottom, seen, _state->surfaces);
+                             });
+}
+
 const SurfaceMap& RenderSession::lastSurfaces() const
 {
     return _state->lastSurfaces;

@@ -93,17 +93,33 @@ struct Watcher
 
 /// Returns what a session without any past makes of so many passes of a sequence.
 inline std::vector<float> fresh(const std::shared_ptr<const Scene>& scene, uint32_t sequence,
-                                int passes)
+                                int passes, const View& view = yardView())
 {
     RenderSession session(std::make_shared<Workers>(1));
     session.setScene(traced(scene));
-    session.setView(yardView());
+    session.setView(view);
     session.setOptions(optionsOf(IntegratorKind::Path));
     session.setSequence(sequence);
     StopRule rule;
     rule.passes = passes;
     session.render(rule);
     return session.resolveRadiance();
+}
+
+/// Returns a mark for each pixel in whose middle the instance is seen.
+inline std::vector<uint8_t> pixelsOf(uint32_t instance, const std::shared_ptr<const Scene>& scene,
+                                     const View& view = yardView())
+{
+    RenderSession session(std::make_shared<Workers>(1));
+    session.setScene(traced(scene));
+    session.setView(view);
+    StopRule rule;
+    rule.passes = 1;
+    session.render(rule);
+    std::vector<uint8_t> marks;
+    for (const SurfaceSample& sample : session.surfaceSamples())
+        marks.push_back(sample.object == instance + 1);
+    return marks;
 }
 
 inline bool samePixel(const std::vector<float>& a, const std::vector<float>& b, std::size_t pixel)

@@ -68,9 +68,15 @@ std::vector<float> referenceOf(const std::shared_ptr<const TracedScene>& scene,
 
 double relMseOf(const std::vector<float>& picture, const std::vector<float>& reference)
 {
+    return relMseOf(picture, reference, std::vector<uint8_t>(picture.size() / 4, 1));
+}
+
+double relMseOf(const std::vector<float>& picture, const std::vector<float>& reference,
+                const std::vector<uint8_t>& marks)
+{
     app::ErrorSum sum;
     for (std::size_t i = 0; i < picture.size(); ++i)
-        if (i % 4 != 3) sum.add(picture[i], reference[i]);
+        if (i % 4 != 3 && marks[i / 4]) sum.add(picture[i], reference[i]);
     return sum.measures().relMse;
 }
 

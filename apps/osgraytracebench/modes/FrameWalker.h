@@ -38,6 +38,10 @@ std::vector<float> referenceOf(const std::shared_ptr<const engine::TracedScene>&
 /// Returns relMSE over RGB of linear RGBA.
 double relMseOf(const std::vector<float>& picture, const std::vector<float>& reference);
 
+/// Returns relMSE over RGB of the pixels with a mark.
+double relMseOf(const std::vector<float>& picture, const std::vector<float>& reference,
+                const std::vector<uint8_t>& marks);
+
 /// Writes linear RGBA of the view's size as a picture for people.
 void writePicture(const std::string& file, const engine::View& view,
                   const std::vector<float>& picture);

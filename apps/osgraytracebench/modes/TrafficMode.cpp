@@ -23,7 +23,25 @@ constexpr int kCompared = 3; ///< frames that are compared with converged pictur
 struct Way
 {
     double error = 0.0, seconds = 0.0;
+    double moving = 0.0; ///< error of the pixels that show cars that move
 };
+
+/// Returns a mark for each pixel that shows a car that moves.
+std::vector<uint8_t> movingPixels(const std::shared_ptr<const TracedScene>& scene,
+                                  const std::shared_ptr<Workers>& workers, const View& view,
+                                  const TrafficScene& town)
+{
+    RenderSession session(workers);
+    session.setScene(scene);
+    session.setView(view);
+    StopRule rule;
+    rule.passes = 1;
+    session.render(rule);
+    std::vector<uint8_t> marks;
+    for (const SurfaceSample& sample : session.surfaceSamples())
+        marks.push_back(sample.object > 0 && town.moves(sample.object - 1));
+    return marks;
+}
 
 void measureCars(int movers, const TrafficOptions& options, Rows& rows)
 {
@@ -47,8 +65,15 @@ void measureCars(int movers, const TrafficOptions& options, Rows& rows)
         const int left = options.frames - 1 - frame, stride = options.frames / 4;
         if (left % stride != 0 || left / stride >= kCompared) continue;
         const std::vector<float> reference = referenceOf(scene, workers, view, options.references);
-        restarted.error += relMseOf(restarting.tracer.radiance(), reference) / kCompared;
-        kept.error += relMseOf(keeping.tracer.radiance(), reference) / kCompared;
+        const std::vector<uint8_t> marks = movingPixels(scene, workers, view, town);
+        const auto addErrors = [&](FrameWalker& walker, Way& way)
+        {
+            const std::vector<float> picture = walker.tracer.radiance();
+            way.error += relMseOf(picture, reference) / kCompared;
+            way.moving += relMseOf(picture, reference, marks) / kCompared;
+        };
+        addErrors(restarting, restarted);
+        addErrors(keeping, kept);
         if (left > 0 || options.pictures.empty()) continue;
         const std::string stem = options.pictures + "/traffic-" + std::to_string(movers) + "-";
         writePicture(stem + "restarted.png", view, restarting.tracer.radiance());
@@ -63,6 +88,10 @@ void measureCars(int movers, const TrafficOptions& options, Rows& rows)
                     "times", Goal::AtLeast, 4.0});
     rows.push_back({name + "relMSE restarted / kept, at equal CPU time",
                     restarted.error / passes / kept.error, "times", Goal::AtLeast, 4.0});
+    rows.push_back({name + "relMSE of cars that move, restarted", restarted.moving, ""});
+    rows.push_back({name + "relMSE of cars that move, kept", kept.moving, ""});
+    rows.push_back({name + "relMSE of cars that move, restarted / kept, at equal CPU time",
+                    restarted.moving / passes / kept.moving, "times"});
     rows.push_back(
         {name + "pixels kept", 100.0 * keeping.tracer.progress().stages.reprojectedShare, "%"});
     rows.push_back({name + "finding what is kept, on the wall",

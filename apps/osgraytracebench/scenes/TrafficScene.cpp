@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::bench
@@ -200,6 +201,13 @@ std::shared_ptr<const Scene> TrafficScene::at(int frame) const
     }
     scene->changed = static_cast<Stamp>(frame) + 2;
     return scene;
+}
+
+bool TrafficScene::moves(uint32_t instance) const
+{
+    return std::any_of(_cars.begin(), _cars.end(),
+                       [instance](const Car& car)
+                       { return car.instance == instance && car.speed != 0.0; });
 }
 
 View TrafficScene::view(int width, int height)

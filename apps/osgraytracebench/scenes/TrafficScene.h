@@ -24,6 +24,9 @@ public:
     /// Returns the town at a frame of 1/30 s. The stamps of what has not moved stay.
     std::shared_ptr<const engine::Scene> at(int frame) const;
 
+    /// Returns whether the instance is a car that moves.
+    bool moves(uint32_t instance) const;
+
     /// Returns the view of somebody on a roof.
     static engine::View view(int width, int height);
 

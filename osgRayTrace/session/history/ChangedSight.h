@@ -17,7 +17,9 @@ constexpr std::size_t kMostShadowLights = 32;
 /// there are more looks than this number, nothing is kept.
 constexpr std::size_t kMostLooks = 1024;
 
-/// The pixels of a tile that more looks than this number concern keep nothing.
+/// A tile that more looks than this number concern is looked at by quarters, and these by theirs. A
+/// tile takes no more than this number of looks a pixel to find what concerns its parts. Pixels
+/// that more looks concern keep nothing.
 constexpr std::size_t kMostTileLooks = 32;
 
 /// A changed box. Places are relative to the pole of a SurfaceMap [world length].

@@ -36,7 +36,7 @@ struct Spot
     bool hit = false;
 };
 
-/// Holds what concerns the pixels of one tile.
+/// Holds what concerns the pixels of one tile, or of one block of a tile.
 struct TileSight
 {
     std::vector<Spot> spots;
@@ -54,15 +54,23 @@ struct TileSight
     }
 };
 
+/// A square of pixels, which may reach over the image's right and upper border.
+struct PixelBlock
+{
+    int left, bottom, size;
+};
+
 struct Limiter
 {
     const SurfaceMap& map;
     const ChangedSight& sight;
     std::vector<uint8_t> changedObject; ///< by object of the map
 
-    void tile(int left, int bottom, float* limits) const;
-    void findSpots(int left, int bottom, TileSight& tile) const;
-    void findBoxes(int left, int bottom, TileSight& tile) const;
+    TileSight everything() const;
+    void limitBlock(const TileSight& around, PixelBlock block, std::size_t& spare,
+                    float* limits) const;
+    void findSpots(PixelBlock block, TileSight& tile) const;
+    void findBoxes(const TileSight& around, PixelBlock block, TileSight& tile) const;
     float limit(const TileSight& tile, const Spot& spot) const;
     float share(const TileSight& tile, const Spot& spot) const;
     Vec3 normalOf(const Spot& spot) const
@@ -74,14 +82,28 @@ struct Limiter
     float lobeShare(const TileSight& tile, const Spot& spot, float lobe) const;
 };
 
-void Limiter::findSpots(int left, int bottom, TileSight& tile) const
+/// Returns what may concern any pixel.
+TileSight Limiter::everything() const
+{
+    TileSight all;
+    for (const SeenBox& box : sight.boxes)
+    {
+        all.direct.push_back(&box);
+        for (const ShadowLight& light : sight.lights)
+            all.shadows.emplace_back(&light, &box);
+    }
+    all.near = all.reflected = all.direct;
+    return all;
+}
+
+void Limiter::findSpots(PixelBlock block, TileSight& tile) const
 {
     const CameraRays& c = map.rays.rays;
-    const int right = std::min(left + kTileSize, map.view.width);
-    const int top = std::min(bottom + kTileSize, map.view.height);
+    const int right = std::min(block.left + block.size, map.view.width);
+    const int top = std::min(block.bottom + block.size, map.view.height);
     Vec3 low(kInfinity), high(-kInfinity);
-    for (int y = bottom; y < top; ++y)
-        for (int x = left; x < right; ++x)
+    for (int y = block.bottom; y < top; ++y)
+        for (int x = block.left; x < right; ++x)
         {
             const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
             Spot spot;
@@ -136,26 +158,29 @@ bool Limiter::isReflected(const TileSight& tile, const SeenBox& box) const
     return glm::length(to / distance - tile.mirrored) <= tile.spread + size;
 }
 
-void Limiter::findBoxes(int left, int bottom, TileSight& tile) const
+/// Finds what concerns the block among what concerns the larger block around it.
+void Limiter::findBoxes(const TileSight& around, PixelBlock block, TileSight& tile) const
 {
+    for (const SeenBox* box : around.direct)
+        if (box->left < block.left + block.size && box->right > block.left &&
+            box->bottom < block.bottom + block.size && box->top > block.bottom)
+            tile.direct.push_back(box);
     const bool anyHit = std::any_of(tile.spots.begin(), tile.spots.end(),
                                     [](const Spot& spot) { return spot.hit; });
-    for (const SeenBox& box : sight.boxes)
+    if (!anyHit) return;
+    tile.farShare = around.farShare;
+    for (const SeenBox* box : around.near)
     {
-        if (box.left < left + kTileSize && box.right > left && box.bottom < bottom + kTileSize &&
-            box.top > bottom)
-            tile.direct.push_back(&box);
-        if (!anyHit) continue;
-        const float distance = glm::length(box.centre - tile.centre);
-        if (distance > kFar * (tile.radius + box.radius))
-            tile.farShare += box.area / (kPi * distance * distance);
+        const float distance = glm::length(box->centre - tile.centre);
+        if (distance > kFar * (tile.radius + box->radius))
+            tile.farShare += box->area / (kPi * distance * distance);
         else
-            tile.near.push_back(&box);
-        if (isReflected(tile, box)) tile.reflected.push_back(&box);
-        for (const ShadowLight& light : sight.lights)
-            if (mayShade(light, box, tile.centre, tile.radius))
-                tile.shadows.emplace_back(&light, &box);
+            tile.near.push_back(box);
     }
+    for (const SeenBox* box : around.reflected)
+        if (isReflected(tile, *box)) tile.reflected.push_back(box);
+    for (const auto& [light, box] : around.shadows)
+        if (mayShade(*light, *box, tile.centre, tile.radius)) tile.shadows.emplace_back(light, box);
 }
 
 /// Returns the share of a lobe's width that changed boxes take. The angle between two directions is
@@ -207,15 +232,28 @@ float Limiter::limit(const TileSight& tile, const Spot& spot) const
     return std::min(limitOf(share(tile, spot)), smooth ? kSmoothKept : kInfinity);
 }
 
-void Limiter::tile(int left, int bottom, float* limits) const
+/// Limits the pixels of a block: by its quarters if too many looks concern the block, and if the
+/// looks that are spare suffice for the quarters.
+void Limiter::limitBlock(const TileSight& around, PixelBlock block, std::size_t& spare,
+                         float* limits) const
 {
+    if (block.left >= map.view.width || block.bottom >= map.view.height) return;
     TileSight tile;
-    tile.spots.reserve(kTilePixels);
-    findSpots(left, bottom, tile);
-    findBoxes(left, bottom, tile);
-    const bool crowded = tile.looks() > kMostTileLooks;
+    tile.spots.reserve(static_cast<std::size_t>(block.size * block.size));
+    findSpots(block, tile);
+    findBoxes(around, block, tile);
+    const std::size_t looks = tile.looks();
+    if (looks > kMostTileLooks && block.size > 1 && 4 * looks <= spare)
+    {
+        spare -= 4 * looks;
+        const int half = block.size / 2;
+        for (const int up : {0, half})
+            for (const int right : {0, half})
+                limitBlock(tile, {block.left + right, block.bottom + up, half}, spare, limits);
+        return;
+    }
     for (const Spot& spot : tile.spots)
-        limits[spot.pixel] = crowded ? 0.0f : limit(tile, spot);
+        limits[spot.pixel] = looks > kMostTileLooks ? 0.0f : limit(tile, spot);
 }
 
 /// Sets each value of a row to the least of itself and its neighbours', in the three rows given.
@@ -249,15 +287,18 @@ void limitKept(const SurfaceMap& map, const Scene& scene, const std::vector<Ligh
     limiter.changedObject.resize(change.instances.empty() ? 0 : change.instances.back() + 2u);
     for (const uint32_t instance : change.instances)
         limiter.changedObject[instance + 1u] = 1;
+    const TileSight everything = limiter.everything();
     std::vector<float> limits(count.size());
     const int across = tilesAlong(map.view.width), down = tilesAlong(map.view.height);
-    workers.forEach(static_cast<std::size_t>(across) * static_cast<std::size_t>(down),
-                    [&](std::size_t index)
-                    {
-                        const int tile = static_cast<int>(index);
-                        limiter.tile(tile % across * kTileSize, tile / across * kTileSize,
-                                     limits.data());
-                    });
+    workers.forEach(
+        static_cast<std::size_t>(across) * static_cast<std::size_t>(down),
+        [&](std::size_t index)
+        {
+            const int tile = static_cast<int>(index);
+            std::size_t spare = kMostTileLooks * kTilePixels;
+            const PixelBlock block{tile % across * kTileSize, tile / across * kTileSize, kTileSize};
+            limiter.limitBlock(everything, block, spare, limits.data());
+        });
     const auto width = static_cast<std::size_t>(map.view.width);
     const auto height = static_cast<std::size_t>(map.view.height);
     forEachRows(workers, map.view.height,

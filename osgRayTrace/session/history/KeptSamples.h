@@ -16,7 +16,8 @@ constexpr float kSmoothKept = 4.0f;
 
 /// Lowers the counts of samples of the pixels of a view, for the same view of the changed scene:
 ///
-/// - to 0 if a changed box is seen in the pixel, or hides one of the lights from its surface;
+/// - to 0 if a changed box is seen in the pixel, or hides one of the lights from its surface (what
+///   has moved may take its samples along, see MovedSamples.h);
 /// - to 1 / (8 s^2) if changed boxes take the share s of what lights the surface otherwise, and to
 ///   0 if that is less than one sample. For diffuse light, s is the sum of A / (pi d^2) over the
 ///   boxes above the surface, where A is the mean projected area of a box, a quarter of its

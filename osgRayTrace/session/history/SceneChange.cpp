@@ -116,6 +116,44 @@ void addPlaces(const ChangedBox& before, const ChangedBox& after, std::vector<Ch
     if (!isEmpty(after)) boxes.push_back(after);
 }
 
+Mat4d matrixOf(const Instance& instance)
+{
+    Mat4d matrix(1.0);
+    if (!instance.placed) return matrix;
+    for (int axis = 0; axis < 3; ++axis)
+        matrix[axis] = Vec4d(Vec3d(instance.engineFromLocal.linear[axis]), 0.0);
+    matrix[3] = Vec4d(Vec3d(instance.engineFromLocal.translation), 1.0);
+    return matrix;
+}
+
+/// Returns whether a matrix turns and shifts, but for rounding.
+bool isRigid(const Mat4d& matrix)
+{
+    constexpr double kTolerance = 1e-4;
+    const glm::dmat3 linear(matrix);
+    const glm::dmat3 product = glm::transpose(linear) * linear;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (!(std::abs(product[column][row] - (column == row ? 1.0 : 0.0)) < kTolerance))
+                return false;
+    return glm::determinant(linear) > 0.0;
+}
+
+/// Returns how an instance has moved if nothing else of it has changed.
+std::optional<RigidMove> rigidMove(const Scene& before, const Scene& after, uint32_t i)
+{
+    if (i >= before.instances.size() || i >= after.instances.size()) return std::nullopt;
+    const Instance &a = before.instances[i], &b = after.instances[i];
+    if (!meshOf(before, a) || meshOf(before, a) != meshOf(after, b) || a.mirrored != b.mirrored ||
+        a.material != b.material || !sameMaterial(before, after, a.material))
+        return std::nullopt;
+    RigidMove move;
+    move.instance = i;
+    move.afterFromBefore = matrixOf(b) * glm::inverse(matrixOf(a));
+    if (!isRigid(move.afterFromBefore)) return std::nullopt;
+    return move;
+}
+
 bool emits(const Scene& scene, std::size_t i)
 {
     return i < scene.instances.size() && scene.instances[i].light != kInvalid;
@@ -154,7 +192,13 @@ std::optional<SceneChange> sceneChange(const Scene& before, const Scene& after)
             return i < scene.instances.size() ? bounds.placedBounds(scene, scene.instances[i])
                                               : ChangedBox();
         };
-        addPlaces(placeIn(before), placeIn(after), change.boxes);
+        const ChangedBox old = placeIn(before), now = placeIn(after);
+        addPlaces(old, now, change.boxes);
+        std::optional<RigidMove> move = rigidMove(before, after, i);
+        if (!move || isEmpty(old) || isEmpty(now)) continue;
+        move->before = old;
+        move->after = now;
+        change.moves.push_back(*move);
     }
     const bool finite = std::all_of(change.boxes.begin(), change.boxes.end(), hasBounds);
     return finite ? std::optional(std::move(change)) : std::nullopt;

@@ -234,11 +234,14 @@ bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float 
                     for (std::size_t i = first * width; i < end * width; ++i)
                         _left.count[i] = std::min(_left.count[i], most);
                 });
-    limitKept(session.firstSurfaces(), session.imageScene().scene(), session.imageLights(), change,
-              workers, _left.count);
+    const SurfaceMap& surfaces = session.firstSurfaces();
+    const Scene& scene = session.imageScene().scene();
+    _moved.take(surfaces, scene, session.imageLights(), change, _left, workers);
+    limitKept(surfaces, scene, session.imageLights(), change, workers, _left.count);
     const std::size_t lost = findLacking(session, workers);
-    const double share = 1.0 - static_cast<double>(lost) / static_cast<double>(_left.count.size());
-    if (share < kLeastShare)
+    const auto pixels = static_cast<double>(_left.count.size());
+    const double share = 1.0 - static_cast<double>(lost) / pixels;
+    if (share + static_cast<double>(_moved.pixels()) / pixels < kLeastShare)
     {
         drop();
         return false;
@@ -250,6 +253,15 @@ bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float 
     _share = share;
     _seconds = secondsSince(begin);
     return true;
+}
+
+void ViewHistory::followMoved(RenderSession& session, const Workers& workers)
+{
+    const Clock::time_point begin = Clock::now();
+    const std::size_t followed = _moved.carry(session, workers, _history);
+    _share += static_cast<double>(followed) / static_cast<double>(_history.count.size());
+    _blendedPasses = 0;
+    _seconds += secondsSince(begin);
 }
 
 /// Finds the tiles in which pixels of _left have no samples. Returns the number of these pixels.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/session/history/MovedSamples.h"
 #include "osgRayTrace/session/history/Reprojection.h"
 #include "osgRayTrace/session/history/SceneChange.h"
 #include "osgRayTrace/session/image/ResolvedImage.h"
@@ -60,6 +61,10 @@ public:
     bool keep(RenderSession& session, const SceneChange& change, float most,
               const Workers& workers);
 
+    /// Gives the pixels of objects that have moved what the objects had accumulated, after the
+    /// first pass or part of a pass that follows keep: see MovedSamples.
+    void followMoved(RenderSession& session, const Workers& workers);
+
     /// Returns whether the history is of an earlier version of the scene.
     bool isKept() const { return _isKept; }
 
@@ -99,6 +104,7 @@ private:
 
     SampledImage _history; ///< history of the present view
     SampledImage _left;    ///< samples that leave took
+    MovedSamples _moved;   ///< between keep and followMoved
     View _leftView;
     /// Mean of film and history for so many passes of the film's tiles; 0 passes: not known.
     std::vector<float> _blended;

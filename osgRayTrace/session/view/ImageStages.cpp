@@ -126,6 +126,7 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
     _isKeeping = false;
     session.setContinuesView(false);
     if (kept && !result.restarted) forgetKept(); // the image is still the last one
+    if (kept && result.restarted) _history.followMoved(session, *_workers);
     if (result.restarted) _denoiser.forgetSurfaces();
     if (result.restarted && result.status.code != StatusCode::InvalidView)
     {
