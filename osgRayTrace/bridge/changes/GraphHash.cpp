@@ -160,9 +160,7 @@ private:
     {
         _hasher.addObject(&node);
         _hasher.addObject(node.getCullCallback());
-        _hasher.add(ownHint(node));
-        if (_hasViewMasks) _hasher.add(node.getNodeMask());
-        addStateSetOf(node);
+        addOwnState(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
         _hasher.add(kEnd);
     }
@@ -170,9 +168,7 @@ private:
     void addDrawable(const osg::Drawable& drawable)
     {
         _hasher.addObject(&drawable);
-        _hasher.add(ownHint(drawable));
-        if (_hasViewMasks) _hasher.add(drawable.getNodeMask());
-        addStateSetOf(drawable);
+        addOwnState(drawable);
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _hasher.add(box._min, box._max);
     }
@@ -193,8 +189,10 @@ private:
                     rangesHash(primitives));
     }
 
-    void addStateSetOf(const osg::Node& node)
+    void addOwnState(const osg::Node& node)
     {
+        _hasher.add(ownHint(node));
+        if (_hasViewMasks) _hasher.add(node.getNodeMask());
         _hasher.addObject(node.getStateSet());
         if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet(), _reads.get());
     }

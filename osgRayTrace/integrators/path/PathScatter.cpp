@@ -13,9 +13,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Paths with a throughput below this bound may be ended by chance. Light that comes after many
-/// bounces adds most of the noise with a bound of 1, and costs more than it is worth with a bound
-/// below 0.3: measurements on the Cornell box find bounds of 0.33 to 0.5 equally good.
+/// Paths with a throughput below this bound may be ended by chance. Measurements on the Cornell box
+/// find bounds of 0.33 to 0.5 equally good: 1 leaves more noise, and below 0.3 paths cost more.
 constexpr float kRouletteThroughput = 0.4f;
 
 /// NextRays holds the next ray of each lane.
@@ -26,8 +25,7 @@ struct NextRays
     Vec3Lanes weight; ///< factor of the next ray's throughput
 };
 
-/// Sets lane i of diffuseDirections. Returns all bits if light comes from the direction, and else
-/// none.
+/// Sets lane i of diffuseDirections. Returns all bits if light comes from the direction, else none.
 OSGRAYTRACE_INLINE uint32_t diffuseDirection(const Vec3Lanes& normals, const SurfaceLanes& surface,
                                              int i, float u, float v, NextRays& next)
 {
@@ -45,8 +43,7 @@ OSGRAYTRACE_INLINE uint32_t diffuseDirection(const Vec3Lanes& normals, const Sur
     return leaves & maskOf(local.z > 0.0f);
 }
 
-/// Sets the next rays of diffuse lanes, with pdfW = cos/pi, in vector code. Returns the lanes whose
-/// direction is one that light comes from, see isAbove.
+/// Sets the next rays of diffuse lanes, with pdfW = cos/pi. Returns the lanes where isAbove holds.
 OSGRAYTRACE_KERNEL
 LaneMask diffuseDirections(const Vec3Lanes& normal, const SurfaceLanes& surface,
                            const FloatLanes& u, const FloatLanes& v, NextRays& next)
@@ -89,8 +86,7 @@ LaneMask mirror(PathBlock& block, const Bounce& bounce, const FloatLanes& lobe, 
     return alive;
 }
 
-/// Sets the throughput of the next rays, and the probability with which the paths survive roulette.
-/// Returns the lanes whose throughput is not 0.
+/// Sets the next rays' throughput and the survival of roulette. Returns lanes that have throughput.
 OSGRAYTRACE_KERNEL
 LaneMask weigh(const PathBlock& block, const Vec3Lanes& weight, Vec3Lanes& throughput,
                FloatLanes& survival)
@@ -164,7 +160,6 @@ void spawnRays(PathBlock& block, const NextRays& next, const Vec3Lanes& throughp
         block.throughput.y[i] = throughput.y[i];
         block.throughput.z[i] = throughput.z[i];
         block.pdfW[i] = pdfW[i];
-
         block.flags[i] = PathFlags::afterSurface(block.flags[i], laneBit(gathering, i),
                                                  laneBit(rough, i), maskOf(!(pdfW[i] < kInfinity)));
     }

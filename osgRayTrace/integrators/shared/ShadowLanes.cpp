@@ -15,8 +15,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// From this distance on no terminator offset changes the direction to a light, and squares of
-/// distances do not fit into floats.
+/// From here on no terminator offset changes directions, and squared distances are no floats.
 constexpr float kFarLight = 1e18f;
 
 /// A parallelogram light with the values that all lanes share.
@@ -43,8 +42,7 @@ OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const Surf
     const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
     const PlainVec3 lightNormal = plainOf(q.normal);
 
-    // The signs of height and above tell the side of the light that the point is on, and the side
-    // of the surface that the light is on.
+    // The signs of height and above tell the point's side of the light, and the light's side of it.
     const PlainVec3 towards = p - l;
     const float height = dot(towards, lightNormal);
     const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
@@ -98,8 +96,7 @@ LaneMask quadLanes(const Quad& quad, float pmf, const LightReceivers& receivers,
     return lit & receivers.active;
 }
 
-/// Sets the sample of lane i on an emissive mesh. Returns false if the light cannot reach the
-/// surface.
+/// Sets lane i's sample on an emissive mesh. Returns false if its light cannot reach the surface.
 bool meshLane(const PassContext& context, uint32_t light, float pmf,
               const LightReceivers& receivers, int i, LightLanes& samples)
 {
@@ -178,8 +175,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const LightRece
         float distance = sample.distance;
         if (((surface.terminatorLanes >> i) & 1u) && distance < kFarLight)
         {
-            // The terminator offset is not small: the ray must end at the light itself, not past
-            // it.
+            // The terminator offset is not small: the ray must end at the light, not past it.
             towards = point + sample.wi * distance - begin.origin;
             distance = glm::length(towards);
             if (!(distance > 0.0f)) continue;

@@ -218,8 +218,7 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
     return passed;
 }
 
-/// Adds the light that surfaces send by themselves, and the finished colour of fixed-function
-/// surfaces.
+/// Adds the light that surfaces send by themselves, and the colours of fixed-function surfaces.
 void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
 {
     const LaneMaterials& m = block.materials;
@@ -263,8 +262,7 @@ void traceSecondary(WhittedTile& tile)
     ShadingBlock& block = tile.group[0];
     LaneMask active = 0;
     block.fromCamera = 0;
-    // Rays from the camera are not taken together with other rays, because the two kinds meet
-    // different surfaces.
+    // Rays from the camera are taken apart from other rays, as they meet other surfaces.
     const bool fromCamera = tile.stack.back().fromCamera;
     const bool seen = visibleEnvironment(tile.context) != nullptr;
     for (int i = 0; i < kLanes && !tile.stack.empty() && tile.stack.back().fromCamera == fromCamera;

@@ -38,8 +38,7 @@ ViewTracer::ViewTracer(std::function<double()> now)
 {
 }
 
-/// Takes over the inputs. Returns true if the image of the last frame is not the one that is wanted
-/// now.
+/// Takes over the inputs. Returns true if the last frame's image is not the one that is wanted now.
 bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
 {
     bool moved = false;
@@ -55,8 +54,7 @@ bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
     }
     if (inputs.scene != _scene)
     {
-        // The session that is not shown would keep the last version of the scene from being changed
-        // in place.
+        // A session that is not shown would keep the last scene from being changed in place.
         (_displayState == DisplayState::Whole ? _reduced : _session)->clear();
         if (_displayState == DisplayState::Mixed) _displayState = DisplayState::Reduced;
         _scene = inputs.scene;
@@ -152,8 +150,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     const double start = _now();
     ImageStages& stages = stagesOf(session);
     stages.leaveView(session, inputs);
-    // While full resolution fills in, tiles are shown as they are; otherwise the whole image is
-    // shown as soon as it is complete.
+    // Tiles are shown while full resolution fills in, and otherwise the image when it is complete.
     const bool writes = display && display->rgba && !stages.changes(session) &&
                         (display->holdsImage || !stages.willChange());
     const RenderProgress result = session.render(rule, {}, writes ? display : nullptr);
