@@ -159,9 +159,9 @@ TEST_CASE("kept view: nothing is kept where more boxes and lights meet than can 
     CHECK(shareOf(kBoxes, kLights, 1.0f) > 0.3);
     CHECK(shareOf(kBoxes + 1, kLights, 1.0f) == 0.0);
 
-    // The limits of samples are found tile by tile. Where more than kMostTileLooks changed boxes
-    // and shadows concern a tile, its quarters are examined, and pixels that as many concern keep
-    // none.
+    // The limits of samples are found tile by tile. If more than kMostTileLooks changed boxes and
+    // shadows concern a tile, it is divided into quarters, and so on. A pixel keeps no samples if
+    // that many concern the last part around it.
     const double few = shareOf(int(kMostTileLooks) / 4, 1, 0.2f),
                  many = shareOf(2 * int(kMostTileLooks), 1, 0.2f),
                  most = shareOf(7 * int(kMostTileLooks), 1, 0.1f);
