@@ -41,6 +41,16 @@ void addMaterial(const Material& material, SceneTraits& traits)
 
 } // namespace
 
+bool isMipmapped(const Material& material, const Scene& scene)
+{
+    const auto hasMips = [&scene](uint32_t texture)
+    { return texture < scene.textures.size() && !scene.textures[texture]->mips.empty(); };
+    bool mipmapped = hasMips(material.second.texture);
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        mipmapped |= role != kNormalRole && hasMips(textureOf(material, TextureRole(role)));
+    return mipmapped;
+}
+
 SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
 {
     SceneTraits traits;
@@ -59,9 +69,10 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
             traits.triangles += mesh.triangles.size();
         }
     for (const Material& material : scene.materials)
+    {
         addMaterial(material, traits);
-    for (const std::shared_ptr<const Texture>& texture : scene.textures)
-        traits.mipmaps |= traits.textures && !texture->mips.empty();
+        traits.mipmaps |= isMipmapped(material, scene) && !isInvisible(material);
+    }
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)
