@@ -22,8 +22,12 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.fixedFunction = true;
         return;
     }
+    bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
+    bool transmits = material.transmission > 0.0f;
     if (const MaterialDetail* detail = material.detail.get())
     {
+        reflects |= detail->iridescence > 0.0f;
+        transmits |= detail->diffuseTransmission > 0.0f;
         traits.vertexColors |= detail->vertexColors;
         traits.normalMaps |= hasNormalMap(material);
         traits.panes |= detail->thinWalled && material.transmission > 0.0f;
@@ -31,10 +35,8 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.specular |=
             detail->clearcoat > 0.0f && detail->clearcoatRoughness < kMirrorRoughness;
     }
-    const bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
     const bool isSeen = material.culling != FaceCulling::FrontAndBack; // by camera rays
-    traits.physical |=
-        isSeen && (reflects || material.transmission > 0.0f || material.baseColor != Vec3(0.0f));
+    traits.physical |= isSeen && (reflects || transmits || material.baseColor != Vec3(0.0f));
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
     traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
 }

@@ -58,6 +58,20 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(glass(1.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.0f)).physical); // invisible
+
+    Material black = lambert(Vec3(0.0f));
+    CHECK_FALSE(traitsOf(black).physical);
+    MaterialDetail leaf;
+    leaf.diffuseTransmission = 0.5f;
+    black.detail = std::make_shared<MaterialDetail>(leaf);
+    CHECK(traitsOf(black).physical);
+    CHECK_FALSE(traitsOf(black).specular);
+    MaterialDetail film;
+    film.iridescence = 1.0f;
+    black.detail = std::make_shared<MaterialDetail>(film);
+    black.roughness = 0.0f;
+    CHECK(traitsOf(black).physical);
+    CHECK(traitsOf(black).specular);
     CHECK_FALSE(traitsOf(glass(1.0f)).transmission);
 
     Material textured = lambert(Vec3(1.0f));
