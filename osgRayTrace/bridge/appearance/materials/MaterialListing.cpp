@@ -4,7 +4,6 @@
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
 #include "osgRayTrace/bridge/appearance/materials/RuleMaterial.h"
-#include "osgRayTrace/bridge/graph/PathBudget.h"
 
 #include <nlohmann/json.hpp>
 #include <osg/Geometry>
@@ -47,8 +46,8 @@ public:
         if (stateSet) _states.push(*stateSet);
         const uint32_t state = _states.top(), chainAbove = _chain;
         if (!node.getName().empty()) _chain = chainWith(node.getName());
-        if (getNodePath().size() < kDeepest && _seen.insert({&node, state, _chain}).second &&
-            _budget.take())
+        if (getNodePath().size() < kDeepest && _seen.size() < kMostVisits &&
+            _seen.insert({&node, state, _chain}).second)
         {
             if (node.asGeometry())
                 _use(getNodePath(), _states.states()[state]);
@@ -60,7 +59,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kDeepest = 5000; ///< as in conversions
+    static constexpr std::size_t kDeepest = 5000;                    ///< as in conversions
+    static constexpr std::size_t kMostVisits = std::size_t(1) << 22; ///< as in conversions
 
     /// Returns the number of the chain of names that goes on with this name.
     uint32_t chainWith(const std::string& name)
@@ -71,7 +71,6 @@ private:
 
     const Use& _use;
     StateStack _states;
-    PathBudget _budget;
     uint32_t _chain = 0; ///< of the names above; 0: there is none
     std::map<std::pair<uint32_t, std::string>, uint32_t> _chains;
     std::set<std::tuple<const osg::Node*, uint32_t, uint32_t>> _seen;
