@@ -126,8 +126,8 @@ TEST_CASE("ray cones: footprints are the pixels of perspective and parallel view
 TEST_CASE("ray cones: what is met behind a pane does not have the pane's footprint",
           "[integrators]")
 {
-    RayHitBlock rays, behind;
-    SurfaceLanes surface, later;
+    RayHitBlock rays = {}, behind = {};
+    SurfaceLanes surface = {}, later = {};
     surface.hits = surface.coned = kAllLanes;
     later.hits = 0x0033u;
     mergeHits(behind, later, 0x00ffu, rays, surface);
