@@ -71,8 +71,8 @@ double largestAlbedoOf(double cosine, double alpha, const CoatShape& shape)
                                albedoOf(cosine, 0.0, alpha, along, shape.eta));
         // Outside of a body one of the axes has the largest albedo.
         for (int i = 1; i < kAzimuths && shape.eta < 1.0f; ++i)
-            most = std::max(most, albedoOf(cosine, 0.5 * M_PI * i / kAzimuths, along, alpha,
-                                           shape.eta));
+            most = std::max(most,
+                            albedoOf(cosine, 0.5 * M_PI * i / kAzimuths, along, alpha, shape.eta));
         return most;
     };
     const double strength = double(shape.anisotropy);
@@ -117,8 +117,8 @@ double averageOf(const CoatAlbedoRow& row)
         }
         const double low = cosineAt(double(i) / kSteps, double(row.critical));
         const double high = cosineAt((i + 1.0) / kSteps, double(row.critical));
-        sum += row(static_cast<float>(cosineAt(x, double(row.critical)))) * (high * high - low * low) *
-               kSteps;
+        sum += row(static_cast<float>(cosineAt(x, double(row.critical)))) *
+               (high * high - low * low) * kSteps;
     }
     return sum / kSteps;
 }

@@ -33,7 +33,8 @@ OSGRAYTRACE_INLINE float insideRowAlbedo(const float* albedo, float critical, fl
     const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
     // Half of the steps are below the critical cosine, dense at both ends; half are above it.
     const float s = c / critical, nearest = select(s < 0.5f, s, 1.0f - s);
-    const float root = std::sqrt(select(s < 1.0f, 0.5f * nearest, (c - critical) / (1.0f - critical)));
+    const float root =
+        std::sqrt(select(s < 1.0f, 0.5f * nearest, (c - critical) / (1.0f - critical)));
     const float below = select(s < 0.5f, root, 1.0f - root);
     const float x = select(s < 1.0f, below, 1.0f + root) * (0.5f * static_cast<float>(kCoatSteps));
     const int i = static_cast<int>(x);
@@ -53,7 +54,7 @@ struct CoatAlbedoRow
     float operator()(float cosTheta) const
     {
         return critical > 0.0f ? insideRowAlbedo(albedo.data(), critical, cosTheta)
-                           : coatRowAlbedo(albedo.data(), cosTheta);
+                               : coatRowAlbedo(albedo.data(), cosTheta);
     }
 };
 
