@@ -12,7 +12,8 @@
 namespace osgRayTrace::test
 {
 
-/// Returns whether a child process that runs body is ended by an assertion.
+/// Returns whether a child process that runs body is ended by an assertion. Throws if it ends in
+/// any other way but by itself.
 inline bool isAborted(const std::function<void()>& body)
 {
     const pid_t child = fork();
@@ -26,7 +27,9 @@ inline bool isAborted(const std::function<void()>& body)
     }
     int status = 0;
     if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
-    return WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT) return true;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return false;
+    throw std::runtime_error("the child process was ended otherwise");
 }
 
 } // namespace osgRayTrace::test

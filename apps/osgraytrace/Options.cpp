@@ -160,7 +160,7 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                  "Prints the names in the models that a file for --materials can use; needs no -o");
     app.add_option("--write-materials", options.writtenMaterials,
                    "Writes the materials of the models as a file for --materials to edit; needs no "
-                   "-o, renders nothing")
+                   "-o, renders nothing; not beside -o, --names, --report, --stats")
         ->option_text("FILE.json");
     app.add_option(
            "--context", raw.context,
@@ -202,9 +202,22 @@ void applyPasses(const CLI::App& app, Options& options)
     options.settings->setMaxPasses(*options.defaultPasses);
 }
 
+/// Throws Failure(kUsage) if --write-materials stands beside something else to print or write.
+void checkWrittenMaterials(const Options& options)
+{
+    if (options.writtenMaterials.empty()) return;
+    const std::pair<const char*, bool> others[] = {{"--names", options.names},
+                                                   {"-o", !options.outputs.empty()},
+                                                   {"--report", options.report},
+                                                   {"--stats", !options.statistics.empty()}};
+    for (const auto& [name, given] : others)
+        if (given) throw Failure(kUsage, std::string("--write-materials excludes ") + name);
+}
+
 void check(const Options& options)
 {
     if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
+    checkWrittenMaterials(options);
     const bool lists = options.names || !options.writtenMaterials.empty();
     if (options.outputs.empty() && !options.report && !lists)
         throw Failure(kUsage, "no -o FILE given; --help shows the options");

@@ -101,13 +101,14 @@ std::shared_ptr<std::string> addJson(CLI::App& mode)
     return json;
 }
 
-/// A mode without options of its own.
+/// Returns the run of a mode that has no option but --json.
 template <void (*measure)(Rows&)> Run addRows(CLI::App& mode)
 {
     return [json = addJson(mode)] { return runRows(measure, *json); };
 }
 
-/// A mode of parts with names. parts: some of them.
+/// Returns the run of a mode that measures named parts, and adds the option that chooses among
+/// them. parts: names of some of the parts, as examples in the option's help.
 template <void (*measure)(const std::string&, Rows&)>
 Run addParts(CLI::App& mode, const std::string& parts)
 {

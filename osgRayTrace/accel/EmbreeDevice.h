@@ -28,6 +28,12 @@ public:
     /// Returns the width of the widest packet that the CPU traces natively: 16, 8, 4 or 1.
     int nativeWidth() const { return _nativeWidth; }
 
+    /// Returns true if rays pass geometries by their masks. Embree can be built without.
+    bool masksRays() const
+    {
+        return rtcGetDeviceProperty(_device, RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0;
+    }
+
     uint64_t bytes() const { return _bytes.load(); }
 
     /// Throws EngineError if Embree reported anything since the last call.

@@ -84,11 +84,11 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     return chance(c) < opacity;
 }
 
-bool needsFilter(const MaterialRecord& record)
+bool needsFilter(const MaterialRecord& record, bool masks)
 {
     const Material& material = *record.material;
     const bool transparent = material.blended || material.alphaTest != AlphaTest::Always;
-    return record.partial && (transparent || !isHiddenFromCamera(material));
+    return record.partial && (transparent || !masks || !isHiddenFromCamera(material));
 }
 
 void setHitFilter(void* geometry)

@@ -39,9 +39,10 @@ private:
     const MaterialTable& _materials;
 };
 
-/// Returns true if some rays that a surface's mask lets meet it may pass. Camera rays never meet
-/// what is hidden from the camera, and all others meet it, unless it is transparent as well.
-bool needsFilter(const MaterialRecord& record);
+/// Returns true if rays may pass a surface that their masks let them meet. If there are masks,
+/// camera rays never meet what is hidden from the camera, and all others do not pass it unless it
+/// is transparent as well.
+bool needsFilter(const MaterialRecord& record, bool masks);
 
 /// Sets HitFilter as the filter of hits on the geometry, an RTCGeometry.
 void setHitFilter(void* geometry);

@@ -33,6 +33,7 @@ void mergeHits(const RayHitBlock& later, const SurfaceLanes& laterSurface, LaneM
         surface.material[i] = laterSurface.material[i];
     }
     surface.hits = merged(laterSurface.hits, lanes, surface.hits);
+    surface.coned &= ~lanes;
     surface.front = merged(laterSurface.front, lanes, surface.front);
     surface.terminatorLanes = merged(laterSurface.terminatorLanes, lanes, surface.terminatorLanes);
 }

@@ -17,9 +17,9 @@ struct SurfaceLanes
     FloatLanes minCosine;      ///< cosine above which rays may begin at position itself: leave()
     UintLanes instance;        ///< index into Scene::instances; undefined outside of hits
     UintLanes material;        ///< index into Scene::materials
-    FloatLanes footprint;      ///< width of what the pixel sees here [engine units]; in coned lanes
+    FloatLanes footprint; ///< width of what the pixel sees here [engine units]; in lanes of coned
     LaneMask hits = 0;
-    LaneMask coned = 0;           ///< lanes whose footprint is set: see setFootprints
+    LaneMask coned = 0;           ///< lanes with a footprint: see setFootprints
     LaneMask front = 0;           ///< lanes whose ray meets the mesh's counter-clockwise side
     LaneMask terminatorLanes = 0; ///< hits whose position is above their triangle: see RayStart
     Vec3Lanes onTriangle;         ///< point without offset; unset without terminatorLanes

@@ -100,8 +100,7 @@ struct TracedScene::Implementation
     float reach() const;
 };
 
-/// Compares the instances with those of the previous scene. Instances at unchanged places keep
-/// their reaches.
+/// Compares the instances with the previous scene's. Those at unchanged places keep their reaches.
 void TracedScene::Implementation::compareInstances(const Implementation* old)
 {
     surfaces =
@@ -126,8 +125,7 @@ void TracedScene::Implementation::compareInstances(const Implementation* old)
     }
 }
 
-/// Finds the instances that Embree gets: those with triangles, a visible material and a valid
-/// transform.
+/// Finds the instances that Embree gets: with triangles, a visible material, a valid transform.
 void TracedScene::Implementation::findAttached()
 {
     std::vector<bool> invisible(scene->materials.size());
@@ -313,8 +311,9 @@ float TracedScene::Implementation::reach() const
 void TracedScene::Implementation::findFiltered()
 {
     filtered.resize(scene->meshes.size());
+    const bool masks = pool->device()->masksRays();
     for (const Instance& instance : scene->instances)
-        if (needsFilter(materials->table[instance.material])) filtered[instance.mesh] = true;
+        if (needsFilter(materials->table[instance.material], masks)) filtered[instance.mesh] = true;
 }
 
 TracedScene::TracedScene() : _implementation(std::make_unique<Implementation>()) {}

@@ -22,8 +22,12 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.fixedFunction = true;
         return;
     }
+    bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
+    bool transmits = material.transmission > 0.0f;
     if (const MaterialDetail* detail = material.detail.get())
     {
+        reflects |= detail->iridescence > 0.0f;
+        transmits |= detail->diffuseTransmission > 0.0f;
         traits.vertexColors |= detail->vertexColors;
         traits.normalMaps |= hasNormalMap(material);
         traits.panes |= detail->thinWalled && material.transmission > 0.0f;
@@ -31,15 +35,23 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.specular |=
             detail->clearcoat > 0.0f && detail->clearcoatRoughness < kMirrorRoughness;
     }
-    const bool reflects = material.metallic > 0.0f || material.ior != 1.0f;
     const bool isSeen = material.culling != FaceCulling::FrontAndBack; // by camera rays
-    traits.physical |=
-        isSeen && (reflects || material.transmission > 0.0f || material.baseColor != Vec3(0.0f));
+    traits.physical |= isSeen && (reflects || transmits || material.baseColor != Vec3(0.0f));
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
     traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
 }
 
 } // namespace
+
+bool isMipmapped(const Material& material, const Scene& scene)
+{
+    const auto hasMips = [&scene](uint32_t texture)
+    { return texture < scene.textures.size() && !scene.textures[texture]->mips.empty(); };
+    bool mipmapped = hasMips(material.second.texture);
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        mipmapped |= role != kNormalRole && hasMips(textureOf(material, TextureRole(role)));
+    return mipmapped;
+}
 
 SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
 {
@@ -59,9 +71,10 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
             traits.triangles += mesh.triangles.size();
         }
     for (const Material& material : scene.materials)
+    {
         addMaterial(material, traits);
-    for (const std::shared_ptr<const Texture>& texture : scene.textures)
-        traits.mipmaps |= traits.textures && !texture->mips.empty();
+        traits.mipmaps |= isMipmapped(material, scene) && !isInvisible(material);
+    }
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)

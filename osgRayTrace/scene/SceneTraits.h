@@ -28,6 +28,9 @@ struct SceneTraits
     size_t triangles = 0;     ///< counted once for each instance
 };
 
+/// Returns whether some texture of the material but the normal map has mips.
+bool isMipmapped(const Material& material, const Scene& scene);
+
 /// Returns the traits of a scene. alike: traits of a scene with the same instances of the same
 /// meshes; null: no such traits are known.
 SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike = nullptr);

@@ -39,8 +39,8 @@ bool transmitsSmoothly(const Bsdf& b, Vec3 wo)
 {
     constexpr float kSmoothBend = 3e-5f;
     if (b.isSmooth()) return true;
-    const float alpha = std::max(b.alpha, b.alphaTangent);
-    return !b.thin && std::fabs(b.eta - 1.0f) * alpha < kSmoothBend * wo.z * wo.z;
+    const float widest = std::max(b.alpha, b.alphaTangent);
+    return !b.thin && std::fabs(b.eta - 1.0f) * widest < kSmoothBend * wo.z * wo.z;
 }
 
 float reflectedLayers(const Bsdf& b, float cosO, float cosI)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/MaterialTable.h"
 
+#include "osgRayTrace/scene/SceneTraits.h"
 #include "osgRayTrace/shading/Fresnel.h"
 #include "osgRayTrace/shading/LayeredBsdf.h"
 #include "osgRayTrace/shading/TextureSample.h"
@@ -144,7 +145,7 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
                        (material.hasBack && material.back.emission != Vec3(0.0f));
         record.generated = isGenerated(material.mapping) || isGenerated(material.second.mapping);
         record.partial = isPartial(material);
-        record.mipmapped = isMipmapped(material);
+        record.mipmapped = isMipmapped(material, scene);
         if (material.detail) setDetail(material, record);
         _records.push_back(record);
     }
@@ -273,17 +274,6 @@ bool MaterialTable::isPartial(const Material& m) const
                           m.vertexColorUse == VertexColorUse::None && !m.hasBack &&
                           !(m.detail && m.detail->vertexColors);
     return !constant || !(m.alpha >= 1.0f) || !passes(m.alphaTest, 1.0f, m.alphaReference);
-}
-
-/// Returns whether some texture but the normal map has mips.
-bool MaterialTable::isMipmapped(const Material& m) const
-{
-    const auto hasMips = [this](uint32_t texture)
-    { return texture != kInvalid && !_scene->textures[texture]->mips.empty(); };
-    bool mipmapped = hasMips(m.second.texture);
-    for (uint32_t role = 0; role < kTextureRoles; ++role)
-        mipmapped |= role != kNormalRole && hasMips(textureOf(m, static_cast<TextureRole>(role)));
-    return mipmapped;
 }
 
 FaceColors fixedFunctionColors(const Material& material, const Vec4& vertexColor, bool front)

@@ -107,7 +107,6 @@ public:
 
 private:
     bool isPartial(const Material& material) const;
-    bool isMipmapped(const Material& material) const;
     float fixedFunctionAlpha(const Material& material, const MaterialPoint& point) const;
     Vec4 baseTexture(const Material& material, const MaterialPoint& point) const;
     Vec4 textureOr(const Material& material, TextureRole role, const MaterialPoint& point) const;

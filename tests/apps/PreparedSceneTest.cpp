@@ -93,6 +93,26 @@ TEST_CASE("report: the hash of a scene changes with all that its picture can", "
             other->border.x = 1.0f;
             s.textures[0] = other;
         },
+        [&](Scene& s, Material&)
+        {
+            const auto other = sameTexture();
+            other->mips = {*texture};
+            s.textures[0] = other;
+        },
+        [&](Scene& s, Material&)
+        {
+            const auto other = sameTexture();
+            other->mips = {*texture};
+            other->mips[0].linearFilter = false;
+            s.textures[0] = other;
+        },
+        [&](Scene& s, Material&)
+        {
+            const auto other = sameTexture();
+            other->mips = {*texture};
+            other->blendsMips = false;
+            s.textures[0] = other;
+        },
         [](Scene& s, Material&) { s.lights[0].radius = 0.1f; },
         [](Scene& s, Material&) { s.lights[0].environment.visible = false; },
     };

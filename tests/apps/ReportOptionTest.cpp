@@ -223,4 +223,17 @@ TEST_CASE("osgraytrace --write-materials: used as it is, the file changes no bit
         CHECK(picture("edited.exr", " --materials edited.json") != plain);
     }
     CHECK(osgraytrace(folder, town + " --write-materials no/such/folder/m.json").exitCode == 4);
+
+    const TemporaryFolder empty;
+    for (const char* other : {"--names", "-o a.png", "--report", "--stats s.json"})
+    {
+        const Outcome refused =
+            osgraytrace(empty, town + " --write-materials m.json " + std::string(other));
+        CAPTURE(other);
+        CHECK(refused.exitCode == 1);
+        CHECK_THAT(refused.errors,
+                   Contains("--write-materials excludes " +
+                            std::string(other).substr(0, std::string(other).find(' '))));
+    }
+    CHECK(empty.fileNames().empty());
 }

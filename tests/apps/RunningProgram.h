@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -29,6 +30,8 @@ public:
     {
         _file = std::filesystem::canonical(arguments[0]);
         _process = forkpty(&_terminal, nullptr, nullptr, nullptr);
+        // Signals to process -1 would go to all processes.
+        if (_process < 0) throw std::runtime_error("there is no terminal");
         if (_process != 0) return;
         std::vector<char*> pointers;
         for (std::string& argument : arguments)

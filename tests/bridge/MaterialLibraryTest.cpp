@@ -5,6 +5,8 @@
 #include "tests/bridge/Messages.h"
 #include "tests/plugins/TemporaryFolder.h"
 
+#include "osgRayTrace/bridge/appearance/materials/MaterialListing.h"
+
 #include <osg/Image>
 #include <osg/Material>
 #include <osg/Texture2D>
@@ -279,4 +281,36 @@ TEST_CASE("material files: what fits nothing is named once", "[bridge]")
               "material file, materials 'marble': nothing in the scene has this name") == 1);
     CHECK(messages.timesSaid("material file, nodes 'cellar*': nothing") == 1);
     CHECK(messages.timesSaid("tiles") == 0);
+}
+
+TEST_CASE("material listings: a shared part hides the names of all parents", "[bridge]")
+{
+    const osg::ref_ptr<osg::Group> root = new osg::Group, a = new osg::Group, b = new osg::Group;
+    House shared;
+    shared.roof->getStateSet()->removeTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    a->setName("a");
+    b->setName("b");
+    root->addChild(a);
+    root->addChild(b);
+    a->addChild(shared.group);
+    b->addChild(shared.group);
+    b->addChild(triangleGeometry());
+
+    // An entry "b" would win over "tiles" for the shared part.
+    const MaterialListing listing = listMaterials(*root);
+    CHECK(listing.entries == 1);
+    CHECK(listing.nameless == 1);
+    SceneConverter plain, listed;
+    const ConversionResult before = plain.convert(inputFor(root));
+    const ConversionResult after = listed.convert(inputWith(root, listing.text));
+    REQUIRE(before.scene->instances.size() == 3);
+    REQUIRE(after.scene->instances.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        CAPTURE(i);
+        const Material& was = before.scene->materials[before.scene->instances[i].material];
+        const Material& is = after.scene->materials[after.scene->instances[i].material];
+        CHECK(is.model == was.model);
+        CHECK(is.diffuse == was.diffuse);
+    }
 }

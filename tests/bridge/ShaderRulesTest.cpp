@@ -260,6 +260,12 @@ TEST_CASE("shader rules: channels are put where they belong, once", "[bridge]")
     texture->getImage()->dirty();
     const ConversionResult painted = converter.convert(input);
     CHECK(texelOf(painted, soleMaterial(painted).transmissionTexture)[0] == 90);
+    // The source's filters and wrap modes are taken over without its image being changed.
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::MIRROR);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    const auto sampled = textureOf(converter.convert(input));
+    CHECK(sampled->wrapS == TextureWrap::Mirror);
+    CHECK_FALSE(sampled->linearFilter);
 }
 
 TEST_CASE("shader rules: a textured channel keeps the largest size, and wraps as its source",

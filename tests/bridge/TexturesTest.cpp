@@ -8,6 +8,7 @@
 #include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexEnvCombine>
+#include <osg/Texture1D>
 #include <osg/Texture2DArray>
 #include <osg/Texture2DMultisample>
 #include <osg/Texture3D>
@@ -96,6 +97,48 @@ TEST_CASE("textures have mips if their minification filter asks for them, and on
         CHECK(converted.mips[0].bytes[0] == 100);
         CHECK(converted.mips[0].linearFilter == expected.linear);
         CHECK(converted.blendsMips == expected.blends);
+    }
+}
+
+TEST_CASE("textures that are never looked up in mips have none", "[bridge]")
+{
+    const auto imageOfTexels = [](int height)
+    {
+        osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->allocateImage(8, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
+        std::fill_n(image->data(), image->getTotalSizeInBytes(), 100);
+        return image;
+    };
+    SECTION("normal maps, unless something else reads them, too")
+    {
+        const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(imageOfTexels(8));
+        const auto geometry = texturedGeometry(texture);
+        const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+        material->setTexture(PhysicalMaterial::NORMAL_TEXTURE, texture);
+        geometry->getOrCreateStateSet()->setAttribute(material);
+        SceneConverter converter;
+        const auto mips = [&]
+        {
+            const ConversionResult result = converter.convert(inputFor(geometry));
+            return result.scene->textures.at(soleMaterial(result).detail->textures[kNormalRole])
+                ->mips.size();
+        };
+        CHECK(mips() == 0);
+        material->setClearcoat(1.0f);
+        material->setTexture(PhysicalMaterial::CLEARCOAT_TEXTURE, texture);
+        CHECK(mips() == 3);
+        CHECK(mips() == 3);
+        material->setTransmission(1.0f);
+        material->setTransmissionTexture(texture); // this role comes before that of normals
+        texture->getImage()->dirty();
+        CHECK(mips() == 3);
+    }
+    SECTION("1-D textures, as footprints are areas")
+    {
+        const osg::ref_ptr<osg::Texture1D> texture = new osg::Texture1D(imageOfTexels(1));
+        texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR);
+        const ConversionResult result = convertGraph(texturedGeometry(texture));
+        CHECK(result.scene->textures.at(0)->mips.empty());
     }
 }
 

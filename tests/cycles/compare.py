@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: MIT
 """Both renderers get the same file, sky, camera and number of samples, and write sRGB in 8 bits.
 The folder OUT gets a folder for each model, with ours.png, cycles.png and both.png, and table.md.
-Exit code: 0 all models reach their goals, 1 some do not, 2 a program failed, 77 no Blender."""
+Exit code: 0 all models reach their goals, 1 some do not, 2 a program failed or a model that was
+named is not there, 77 there is no Blender, so that nothing was compared."""
 import argparse
+import hashlib
 import json
 import os
 import shutil
 import subprocess
 import sys
+from urllib.parse import unquote
 
 import numpy
 from PIL import Image
@@ -55,7 +58,7 @@ osg::Group {{
 
 def parseArguments(rows):
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of models.json; or all")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of models.json, else all")
     parser.add_argument("--build", default=os.path.join(HERE, "../../build/release"))
     parser.add_argument("--models", default=os.environ.get("OSGRAYTRACE_GLTF_MODELS"))
     parser.add_argument("--out", default="out/cycles")
@@ -64,6 +67,7 @@ def parseArguments(rows):
     parser.add_argument("--bounces", type=int, default=16)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--repair", action="store_true", help="give Cycles glTF's formulas")
+    parser.add_argument("--pictures", help="folder for NAME.jpg: ours and Cycles', 640 x 320")
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in rows]
     if unknown:
@@ -92,14 +96,35 @@ def modelFile(name, options, folder):
     return file if os.path.exists(file) else None
 
 
+def inputFiles(task):
+    """Returns the files that Cycles' picture is made of: the model's own, sky and scripts."""
+    with open(task["model"], encoding="utf-8") as text:
+        document = json.load(text)
+    parts = document.get("buffers", []) + document.get("images", [])
+    uris = [part["uri"] for part in parts if not part.get("uri", "data:").startswith("data:")]
+    beside = os.path.dirname(task["model"])
+    scripts = [os.path.join(HERE, name) for name in ("renderInBlender.py", "repairs.py")]
+    files = [os.path.join(beside, unquote(uri)) for uri in uris]
+    return [task["model"], *files, task["sky"], *scripts]
+
+
+def hashOf(file):
+    with open(file, "rb") as content:
+        return hashlib.sha256(content.read()).hexdigest()
+
+
 def renderCycles(task):
     """Renders with Cycles unless the folder has the picture of the very same task already."""
     folder = task["folder"]
+    task = {**task, "inputs": [hashOf(file) for file in inputFiles(task)]}
     stored = os.path.join(folder, "task.json")
     if os.path.exists(stored):
         with open(stored, encoding="utf-8") as text:
             if json.load(text) == task:
                 return
+    for name in ("task.json", "camera.json", "cycles.png", "mask.png"):
+        if os.path.exists(os.path.join(folder, name)):
+            os.remove(os.path.join(folder, name))
     new = stored + ".new"
     with open(new, "w", encoding="utf-8") as text:
         json.dump(task, text)
@@ -150,6 +175,33 @@ def compare(folder):
     return psnr(difference), psnr(difference[model]), difference[model].mean()
 
 
+def savePair(folder, file):
+    """Saves ours and Cycles' picture side by side as a JPEG file of 640 x 320 pixels."""
+    both = Image.open(os.path.join(folder, "both.png"))
+    pair = both.crop((0, 0, 2 * both.height, both.height))
+    pair.resize((640, 320), Image.LANCZOS).save(file, quality=88)
+
+
+def goalOf(row, repaired):
+    """Returns the least PSNR of the whole picture that the row must reach [dB]."""
+    goal = row.get("goal", 30)
+    return row.get("repairedGoal", goal) if repaired else goal
+
+
+def findModels(names, options, out):
+    """Returns the files of those models that are there, and the names of the others."""
+    found, missing = {}, []
+    for name in names:
+        folder = os.path.join(out, name)
+        os.makedirs(folder, exist_ok=True)
+        model = modelFile(name, options, folder)
+        if model:
+            found[name] = model
+        else:
+            missing.append(name)
+    return found, missing
+
+
 def tableRow(*cells):
     return "| " + " | ".join(str(cell) for cell in cells) + " |"
 
@@ -163,6 +215,14 @@ def main():
         return 77
     out = os.path.abspath(options.out)
     os.makedirs(out, exist_ok=True)
+    models, missing = findModels(options.names or rows, options, out)
+    if missing:
+        print("not found:", ", ".join(missing))
+        print("--models or OSGRAYTRACE_GLTF_MODELS names the folder of the sample models")
+    if missing and options.names:
+        return 2
+    if options.pictures:
+        os.makedirs(options.pictures, exist_ok=True)
     skies = {name: os.path.join(out, name + ".hdr") for name in ("outdoors", "even")}
     for name, file in skies.items():
         sky.write(file, getattr(sky, name)())
@@ -171,14 +231,9 @@ def main():
     lines = [tableRow(*columns), tableRow(*["---"] * len(columns))]
     print(*lines, sep="\n", flush=True)
     below = []
-    for name in options.names or rows:
+    for name, model in models.items():
         row = rows[name]
         folder = os.path.join(out, name)
-        os.makedirs(folder, exist_ok=True)
-        model = modelFile(name, options, folder)
-        if not model:
-            print(f"skipped: no {name}; --models or OSGRAYTRACE_GLTF_MODELS names the folder")
-            continue
         task = {"model": model, "sky": skies[row.get("sky", "outdoors")], "folder": folder}
         task |= {"view": row.get("view", [0.5, -1, 0.3]), "size": options.size}
         task |= {"samples": options.samples, "bounces": options.bounces, "seed": options.seed}
@@ -186,7 +241,9 @@ def main():
         renderCycles(task)
         renderOurs(task, options)
         picture, covered, mean = compare(folder)
-        if picture < row.get("goal", 30):
+        if options.pictures:
+            savePair(folder, os.path.join(options.pictures, name + ".jpg"))
+        if picture < goalOf(row, options.repair):
             below.append(name)
         figures = f"{picture:.1f}", f"{covered:.1f}", f"{mean:+.1f}", options.samples
         lines.append(tableRow(name, *figures, row.get("note", "")))

@@ -4,6 +4,7 @@
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 
+#include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/integrators/shared/RayCones.h"
 #include "osgRayTrace/shading/TextureMips.h"
 
@@ -120,6 +121,18 @@ TEST_CASE("ray cones: footprints are the pixels of perspective and parallel view
             CHECK(surface.footprint[5] == Approx((isParallel ? 1.0 : 2.0) * scale * pixel));
             CHECK(surface.footprint[9] == 0.0f);
         }
+}
+
+TEST_CASE("ray cones: what is met behind a pane does not have the pane's footprint",
+          "[integrators]")
+{
+    RayHitBlock rays, behind;
+    SurfaceLanes surface, later;
+    surface.hits = surface.coned = kAllLanes;
+    later.hits = 0x0033u;
+    mergeHits(behind, later, 0x00ffu, rays, surface);
+    CHECK(surface.hits == (0xff33u & kAllLanes));
+    CHECK(surface.coned == (0xff00u & kAllLanes));
 }
 
 TEST_CASE("ray cones: one pass over a distant texture is close to the converged picture",

@@ -58,6 +58,20 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(glass(1.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.0f)).physical); // invisible
+
+    Material black = lambert(Vec3(0.0f));
+    CHECK_FALSE(traitsOf(black).physical);
+    MaterialDetail leaf;
+    leaf.diffuseTransmission = 0.5f;
+    black.detail = std::make_shared<MaterialDetail>(leaf);
+    CHECK(traitsOf(black).physical);
+    CHECK_FALSE(traitsOf(black).specular);
+    MaterialDetail film;
+    film.iridescence = 1.0f;
+    black.detail = std::make_shared<MaterialDetail>(film);
+    black.roughness = 0.0f;
+    CHECK(traitsOf(black).physical);
+    CHECK(traitsOf(black).specular);
     CHECK_FALSE(traitsOf(glass(1.0f)).transmission);
 
     Material textured = lambert(Vec3(1.0f));
@@ -68,6 +82,36 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK_FALSE(traitsOf(colored).vertexColors);
     colored.vertexColorUse = VertexColorUse::Diffuse;
     CHECK(traitsOf(colored).vertexColors);
+}
+
+TEST_CASE("scene traits: mips count where a material looks them up", "[scene]")
+{
+    Scene scene;
+    const auto texture = std::make_shared<Texture>();
+    texture->mips.resize(1);
+    scene.textures = {texture, std::make_shared<Texture>()};
+    const auto mipmapped = [&scene](const Material& material)
+    {
+        scene.materials = {material};
+        return sceneTraits(scene).mipmaps;
+    };
+    Material material = lambert(Vec3(1.0f));
+    CHECK_FALSE(mipmapped(material));
+    material.baseColorTexture = 1;
+    CHECK_FALSE(mipmapped(material));
+    MaterialDetail detail;
+    detail.textures[kNormalRole] = 0;
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    CHECK_FALSE(mipmapped(material)); // normal maps are never looked up in mips
+    detail.textures[kIridescenceRole] = 0;
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    CHECK(mipmapped(material));
+    material = lambert(Vec3(1.0f));
+    material.baseColorTexture = 0;
+    CHECK(mipmapped(material));
+    material = Material();
+    material.second.texture = 0;
+    CHECK(mipmapped(material));
 }
 
 TEST_CASE("scene traits: lights and normals", "[scene]")

@@ -159,7 +159,9 @@ TEST_CASE("kept view: nothing is kept where more boxes and lights meet than can 
     CHECK(shareOf(kBoxes, kLights, 1.0f) > 0.3);
     CHECK(shareOf(kBoxes + 1, kLights, 1.0f) == 0.0);
 
-    // A crowd of small boxes is looked at, or not, by tiles and parts of tiles.
+    // The limits of samples are found tile by tile. If more than kMostTileLooks changed boxes and
+    // shadows concern a tile, it is divided into quarters, and so on. A pixel keeps no samples if
+    // that many concern the last part around it.
     const double few = shareOf(int(kMostTileLooks) / 4, 1, 0.2f),
                  many = shareOf(2 * int(kMostTileLooks), 1, 0.2f),
                  most = shareOf(7 * int(kMostTileLooks), 1, 0.1f);

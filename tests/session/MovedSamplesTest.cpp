@@ -185,6 +185,9 @@ TEST_CASE("moved samples: what a look at the light or the surface forbids is not
     { return yard.builder.scene->materials[yard.builder.scene->instances[yard.box].material]; };
     CHECK(takenOf([](Yard&) {}, 0.06f) > 0.95);
     CHECK(takenOf([&](Yard& yard) { materialOf(yard) = mirror(Vec3(0.9f)); }, 0.06f) == 0.0);
+    // The box is 3.46 long from corner to corner.
+    CHECK(takenOf([](Yard&) {}, 3.4f) > 0.5);
+    CHECK(takenOf([](Yard&) {}, 3.6f) == 0.0);
     CHECK(takenOf([&](Yard& yard)
                   { materialOf(yard).mapping.coordinates = TextureCoordinates::Position; },
                   0.06f) == 0.0);

@@ -3,6 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
 
+#include "osgRayTrace/shading/MaterialTable.h"
 #include "osgRayTrace/shading/TextureCoordinates.h"
 #include "osgRayTrace/shading/TextureLanes.h"
 #include "osgRayTrace/shading/TextureMips.h"
@@ -184,4 +185,36 @@ TEST_CASE("mips: texture matrices and planes scale footprints by area", "[shadin
     mapping.coordinates = TextureCoordinates::Uv0;
     mapping.matrix[0][3] = 1.0f; // projective
     CHECK(textureWidth(mapping, point) == 0.0f);
+}
+
+TEST_CASE("mips: textures of films and of anisotropy are read with their footprints", "[shading]")
+{
+    Scene scene;
+    const auto texture = std::make_shared<Texture>();
+    texture->width = texture->height = 2;
+    texture->linearFilter = false;
+    // One column of two is black in red and blue.
+    texture->bytes = {255, 128, 255, 255, 0, 128, 0, 255, 255, 128, 255, 255, 0, 128, 0, 255};
+    texture->mips = textureMips(*texture, false);
+    scene.textures = {texture};
+    MaterialDetail detail;
+    detail.iridescence = detail.anisotropy = 1.0f;
+    detail.textures[kIridescenceRole] = detail.textures[kAnisotropyRole] = 0;
+    Material material;
+    material.model = MaterialModel::Physical;
+    material.metallic = 1.0f;
+    material.roughness = 0.5f;
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    scene.materials = {material};
+    const MaterialTable table(scene);
+    CHECK(table[0].mipmapped);
+    MaterialPoint point;
+    point.uv = Vec2(0.25f, 0.25f);
+    const Bsdf sharp = table.bsdf(0, point);
+    point.uvWidth = 1.0f;
+    const Bsdf mean = table.bsdf(0, point);
+    CHECK(sharp.film == 1.0f);
+    CHECK(mean.film == Approx(128.0 / 255.0)); // mips of bytes are bytes
+    CHECK(sharp.alphaTangent == 1.0f);
+    CHECK(mean.alphaTangent == Approx(0.25 + 0.75 * 0.25).margin(0.004));
 }

@@ -158,6 +158,11 @@ void hashTexture(Hasher& hasher, const Texture& texture)
     hasher.add(texture.border);
     hasher.addAll(texture.bytes);
     hasher.addAll(texture.floats);
+    if (texture.mips.empty()) return;
+    hasher.add(texture.blendsMips);
+    hasher.add(texture.mips.size());
+    for (const Texture& mip : texture.mips)
+        hashTexture(hasher, mip);
 }
 
 void hashLight(Hasher& hasher, const Light& light)

@@ -87,8 +87,8 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     for (const int i : lanesIn(bounce.general))
     {
         const Bsdf& bsdf = bounce.bsdfs[i];
-        const bool diffuse = bsdf.diffuse != Vec3(0.0f) || bsdf.diffuseTransmission != Vec3(0.0f);
-        const bool rough = diffuse || bsdf.alpha >= kGatherAlpha;
+        const bool spreads = bsdf.diffuse + bsdf.diffuseTransmission != Vec3(0.0f);
+        const bool rough = spreads || bsdf.alpha >= kGatherAlpha;
         if (rough) bounce.rough |= 1u << i;
         // Narrow lobes hold few photons. Paths go on in narrow lobes, and look up only caustics,
         // which paths cannot find.

@@ -56,8 +56,8 @@ SurfaceSample seenMaterial(const PassContext& context, const RayHitBlock& rays,
         return sample;
     }
     const Bsdf bsdf = seenBsdf(context, rays, surface, i);
-    const bool smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && bsdf.diffuse == Vec3(0.0f) &&
-                        bsdf.diffuseTransmission == Vec3(0.0f);
+    const bool spreads = bsdf.diffuse + bsdf.diffuseTransmission != Vec3(0.0f);
+    const bool smooth = bsdf.isSmooth() && !bsdf.isDiffuse() && !spreads;
     sample.lobe = lobeWidth(record, bsdf);
     sample.kind = smooth ? SurfaceKind::Smooth : SurfaceKind::Scattering;
     return sample;

@@ -13,13 +13,15 @@ namespace osgRayTrace::engine
 /// Shadows of more lights than this number are not looked for: nothing is kept.
 constexpr std::size_t kMostShadowLights = 32;
 
-/// Each box is looked at once by itself and once for each light, for all tiles of an image. If
-/// there are more looks than this number, nothing is kept.
+/// Each changed box is examined once by itself and once for the shadow that it casts from each
+/// light. One such test of a box is called a look. If the changed boxes of a scene take more looks
+/// than this number, no pixel of the image keeps samples.
 constexpr std::size_t kMostLooks = 1024;
 
-/// A tile that more looks than this number concern is looked at by quarters, and these by theirs. A
-/// tile takes no more than this number of looks a pixel to find what concerns its parts. Pixels
-/// that more looks concern keep nothing.
+/// If more looks than this number concern a tile, the tile is divided into quarters, and a quarter
+/// that more looks concern is divided again, down to single pixels. The division ends earlier when
+/// the tile has taken this number of looks for each of its pixels. Pixels of a part that is not
+/// divided any more, although more looks concern the part, keep no samples.
 constexpr std::size_t kMostTileLooks = 32;
 
 /// A changed box. Places are relative to the pole of a SurfaceMap [world length].

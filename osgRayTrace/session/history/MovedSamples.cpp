@@ -86,6 +86,9 @@ ReprojectionLimits limitsOf(const RigidMove& move, const std::vector<Vec3>& lamp
     ReprojectionLimits limits;
     limits.turn = std::max(turnOf(move), kLeastTurn);
     limits.count = std::min(kMovedKept, kMovedTurn / (limits.turn + step / nearest));
+    // Light on an object that jumps has nothing to do with that on its old place.
+    const bool jumps = step > glm::length(move.after.high - move.after.low);
+    if (jumps || !(nearest > 0.0f)) limits.count = 0.0f;
     limits.edgeCount = std::min(limits.edgeCount, limits.count);
     return limits;
 }
@@ -146,8 +149,9 @@ void MovedSamples::chooseObjects(const SurfaceMap& map, const Scene& scene,
         object.newWindow = windowOf(sight.boxes[2 * i + 1]);
         const bool seen = !object.oldWindow.isEmpty() && !object.newWindow.isEmpty();
         if (!seen || object.limits.count < 1.0f || !followsVertices(scene, move)) continue;
-        area += std::max(object.oldWindow.area(), object.newWindow.area());
-        if (area > map.object.size()) break;
+        const std::size_t own = std::max(object.oldWindow.area(), object.newWindow.area());
+        if (area + own > map.object.size()) continue;
+        area += own;
         _objects.push_back(std::move(object));
     }
 }

@@ -17,15 +17,17 @@ class RenderSession;
 /// A pixel of an object that has moved takes no more samples along than this number.
 constexpr float kMovedKept = 8.0f;
 
-/// An object takes along the samples of no more steps than those in which it turned by this angle
-/// altogether, or in which its way was this share of the distance to a light [radians].
+/// The light on an object changes as the object turns or moves past a light. For each step the
+/// angle of the turn [radians] and the length of the way, as a share of the distance to the nearest
+/// light, are added up. An object takes along samples of its last steps only: those whose sums are
+/// altogether no more than this number.
 constexpr float kMovedTurn = 0.1f;
 
 /// Holds what the pixels of rigidly moved objects have accumulated, from before the scene changes
-/// until the objects are seen at their new places. As seen from an object, the viewer has moved:
-/// the samples are carried by reproject, in a window of the image around the object. They are of
-/// light at the old place. Mirrors, and objects whose textures are not placed by vertices, take
-/// nothing along.
+/// until the objects are seen at their new places. In the coordinates of a moved object the object
+/// rests and the viewer has moved, so that reproject carries the samples, in a window of the image
+/// around the object. The samples keep the light of the object's old place. Mirrors, and objects
+/// whose textures are not placed by vertices, take no samples along.
 class MovedSamples
 {
 public:

@@ -24,15 +24,16 @@ struct PixelWindow
     }
 };
 
-/// Returns the view of which the window shows all.
+/// Returns the view whose whole image is the window: the same eye, and the part of the frustum that
+/// the window's pixels cover.
 View windowView(const View& view, const PixelWindow& window);
 
 /// Returns the part of a map within the window, which lies in the map, as a finished map of the
 /// window's view. Smooth and interior pixels are found by the window alone.
 SurfaceMap cutMap(const SurfaceMap& map, const PixelWindow& window, const Workers& workers);
 
-/// Places the map as the viewer sees it from a world that is moved: toMoved takes points of the
-/// old world to the moved one, without scale.
+/// Moves the map's view, rays and surfaces together, so that each pixel still shows the same point
+/// of its surface. toMoved takes points of the world to their new places, without scale.
 void moveMap(const Mat4d& toMoved, SurfaceMap& map);
 
 } // namespace osgRayTrace::engine

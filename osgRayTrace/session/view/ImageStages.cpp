@@ -125,8 +125,9 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
     const bool kept = _isKeeping;
     _isKeeping = false;
     session.setContinuesView(false);
-    if (kept && !result.restarted) forgetKept(); // the image is still the last one
-    if (kept && result.restarted) _history.followMoved(session, *_workers);
+    const bool begun = result.restarted && result.status.ok(); // else the image is the last one
+    if (kept && !begun) forgetKept();
+    if (kept && begun) _history.followMoved(session, *_workers);
     if (result.restarted) _denoiser.forgetSurfaces();
     if (result.restarted && result.status.code != StatusCode::InvalidView)
     {

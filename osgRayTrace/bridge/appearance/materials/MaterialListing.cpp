@@ -18,6 +18,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -28,7 +29,7 @@ namespace
 using Json = nlohmann::json;
 
 /// Calls use(path, state) for each geometry. A node that was met in the same state below the same
-/// named node is passed by.
+/// chain of names is passed by. Ends after as many visits as conversions do.
 class GeometryVisitor : public osg::NodeVisitor
 {
 public:
@@ -43,31 +44,36 @@ public:
     {
         const osg::StateSet* stateSet = node.getStateSet();
         if (stateSet) _states.push(*stateSet);
-        const uint32_t state = _states.top();
-        const osg::Node* named = namedNode();
-        if (getNodePath().size() < kDeepest && _seen.insert({&node, state, named}).second)
+        const uint32_t state = _states.top(), chainAbove = _chain;
+        if (!node.getName().empty()) _chain = chainWith(node.getName());
+        if (getNodePath().size() < kDeepest && _seen.size() < kMostVisits &&
+            _seen.insert({&node, state, _chain}).second)
         {
             if (node.asGeometry())
                 _use(getNodePath(), _states.states()[state]);
             else
                 traverse(node);
         }
+        _chain = chainAbove;
         if (stateSet) _states.pop();
     }
 
 private:
-    static constexpr std::size_t kDeepest = 5000; ///< as in conversions
+    static constexpr std::size_t kDeepest = 5000;                    ///< as in conversions
+    static constexpr std::size_t kMostVisits = std::size_t(1) << 22; ///< as in conversions
 
-    const osg::Node* namedNode() const
+    /// Returns the number of the chain of names that goes on with this name.
+    uint32_t chainWith(const std::string& name)
     {
-        for (auto node = _nodePath.rbegin(); node != _nodePath.rend(); ++node)
-            if (!(*node)->getName().empty()) return *node;
-        return nullptr;
+        const auto next = static_cast<uint32_t>(_chains.size() + 1);
+        return _chains.try_emplace({_chain, name}, next).first->second;
     }
 
     const Use& _use;
     StateStack _states;
-    std::set<std::tuple<const osg::Node*, uint32_t, const osg::Node*>> _seen;
+    uint32_t _chain = 0; ///< of the names above; 0: there is none
+    std::map<std::pair<uint32_t, std::string>, uint32_t> _chains;
+    std::set<std::tuple<const osg::Node*, uint32_t, uint32_t>> _seen;
 };
 
 void eachGeometry(osg::Node& scene, const GeometryVisitor::Use& use)

@@ -4,13 +4,15 @@
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 
+#include <limits>
+
 namespace osgRayTrace::engine
 {
 
 namespace
 {
 
-constexpr double kMost = 1e30;
+constexpr double kMost = std::numeric_limits<float>::max(); ///< as PhysicalMaterial has it
 
 osg::Vec3 colorOf(const std::vector<double>& v)
 {

@@ -30,6 +30,7 @@ PhysicalMaterial::TextureUse useOf(uint32_t role)
 
 TextureContent contentOf(uint32_t role)
 {
+    if (role == kNormalRole) return TextureContent::Normals;
     const bool isColor = role == kBaseColorRole || role == kEmissionRole ||
                          role == kSpecularColorRole || role == kSheenColorRole ||
                          role == kDiffuseTransmissionColorRole;

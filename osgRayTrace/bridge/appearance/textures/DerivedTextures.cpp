@@ -95,8 +95,9 @@ osg::ref_ptr<osg::Image> floatsOf(const osg::Texture2D& texture)
 
 } // namespace
 
-/// Returns the derived texture of a key. make(texture) gives it its image, and false if a source
-/// cannot be read. An image that was given up after it went to OpenGL counts as unchanged.
+/// Returns the derived texture of a key, sampled as the first source is. make(texture) gives it its
+/// image, and false if a source cannot be read. An image that was given up after it went to OpenGL
+/// counts as unchanged.
 template <class Make>
 osg::Texture2D* DerivedTextures::find(const Key& key,
                                       const std::vector<const osg::Texture2D*>& sources,
@@ -114,10 +115,13 @@ osg::Texture2D* DerivedTextures::find(const Key& key,
     Entry& entry = found->second;
     entry.used = _round;
     const bool keeps = !isNew && (entry.sources == now || (entry.derived && !hasImages));
-    if (keeps) return entry.derived.get();
-    entry.sources = std::move(now);
-    if (!entry.derived) entry.derived = new osg::Texture2D;
-    if (!make(*entry.derived)) entry.derived = nullptr;
+    if (!keeps)
+    {
+        entry.sources = std::move(now);
+        if (!entry.derived) entry.derived = new osg::Texture2D;
+        if (!make(*entry.derived)) entry.derived = nullptr;
+    }
+    if (entry.derived && !sources.empty()) copySampling(*sources.front(), *entry.derived);
     return entry.derived.get();
 }
 
@@ -139,7 +143,6 @@ osg::Texture2D* DerivedTextures::ofChannels(const std::array<ChannelSource, 3>& 
                     }
                     const osg::ref_ptr<osg::Image> image = imageOf(channels, texels);
                     if (!image) return false;
-                    if (!sources.empty()) copySampling(*sources.front(), derived);
                     derived.setImage(image);
                     return true;
                 });
@@ -152,7 +155,6 @@ osg::Texture2D* DerivedTextures::ofEncoding(const osg::Texture2D& texture, bool 
                 {
                     const osg::ref_ptr<osg::Image> floats = srgb ? nullptr : floatsOf(texture);
                     if (!srgb && !floats) return false;
-                    copySampling(texture, derived);
                     // The image is held, but not changed.
                     derived.setImage(srgb ? const_cast<osg::Image*>(texture.getImage())
                                           : floats.get());

@@ -65,6 +65,8 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
         (entry.looked == _stamp && entry.texture.get() == texture) || isCurrent(entry, *texture);
     if (!current && !convert(entry, *texture, decode, report)) return kInvalid;
     entry.looked = _stamp;
+    if (!entry.mips && content != TextureContent::Normals && wantsMips(*texture))
+        addMips(entry, *texture, current);
     if (entry.index == kInvalid && !_gaps.empty())
     {
         entry.index = _gaps.back();
@@ -144,14 +146,21 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
     if (texture.getTextureTarget() == GL_TEXTURE_1D) result->wrapT = TextureWrap::ClampToEdge;
     result->border = borderOf(texture);
     setChannels(internalFormatOf(texture, &image), image.getPixelFormat(), *result);
-    if (wantsMips(texture))
-    {
-        const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
-        result->mips = textureMips(*result, !isNearest(filter));
-        result->blendsMips = blendsMips(filter);
-    }
     result->changed = _stamp;
     return result;
+}
+
+/// Gives the entry's texture mips. Its osg::Image may be gone. shared: scenes may hold the texture,
+/// so that it is copied.
+void TextureConverter::addMips(Entry& entry, const osg::Texture& texture, bool shared) const
+{
+    const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
+    const auto result = shared ? std::make_shared<Texture>(*entry.converted) : entry.converted;
+    result->mips = textureMips(*result, !isNearest(filter));
+    result->blendsMips = blendsMips(filter);
+    result->changed = _stamp;
+    entry.converted = result;
+    entry.mips = true;
 }
 
 bool TextureConverter::knows(const osg::Texture& texture) const

@@ -21,8 +21,9 @@ namespace osgRayTrace::engine
 /// Names the kinds of content of an 8-bit texture.
 enum class TextureContent
 {
-    Color, ///< colours, sRGB encoded in a linear scene
-    Data,  ///< data such as roughness, never decoded
+    Color,   ///< colours, sRGB encoded in a linear scene
+    Data,    ///< data such as roughness, never decoded
+    Normals, ///< normals, never decoded nor looked up in mips
 };
 
 /// Returns whether OpenGL has or will have texels of a texture that has no image: a camera renders
@@ -78,7 +79,8 @@ private:
         std::vector<ImageSignature> images;
         GLint internalFormat = 0;
         osg::Texture::FilterMode minification = osg::Texture::LINEAR;
-        std::shared_ptr<const Texture> converted;
+        bool mips = false; // converted has the mips of the minification filter
+        std::shared_ptr<Texture> converted;
         uint32_t index = kInvalid; // index in this snapshot
         Stamp looked = 0;          // stamp of the last comparison with the image
     };
@@ -88,6 +90,7 @@ private:
     bool convert(Entry& entry, const osg::Texture& texture, bool decode, ConversionReport& report);
     std::shared_ptr<Texture> converted(const osg::Texture& texture, bool decode,
                                        ConversionReport& report) const;
+    void addMips(Entry& entry, const osg::Texture& texture, bool shared) const;
 
     std::map<Key, Entry> _entries;
     std::vector<std::shared_ptr<const Texture>> _textures;

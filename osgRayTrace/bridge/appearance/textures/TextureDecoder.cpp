@@ -119,10 +119,9 @@ bool isNearest(osg::Texture::FilterMode mode)
 
 bool wantsMips(const osg::Texture& texture)
 {
-    const GLenum target = texture.getTextureTarget();
     const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
-    return (target == GL_TEXTURE_2D || target == GL_TEXTURE_1D) &&
-           filter != osg::Texture::NEAREST && filter != osg::Texture::LINEAR;
+    return texture.getTextureTarget() == GL_TEXTURE_2D && filter != osg::Texture::NEAREST &&
+           filter != osg::Texture::LINEAR;
 }
 
 bool blendsMips(osg::Texture::FilterMode minification)

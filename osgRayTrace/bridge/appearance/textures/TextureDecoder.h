@@ -22,7 +22,8 @@ bool isSrgbFormat(GLint internalFormat);
 /// Returns whether a look-up takes one texel of its image or mip, not the mean of four.
 bool isNearest(osg::Texture::FilterMode mode);
 
-/// Returns whether OpenGL looks the texture up in mips if it is minified.
+/// Returns whether the texture is looked up in mips if it is minified, as in OpenGL. 1-D textures
+/// are not: footprints are areas, and lines of texels have none.
 bool wantsMips(const osg::Texture& texture);
 
 /// Returns whether OpenGL blends two mips; false: it takes the nearest one.
