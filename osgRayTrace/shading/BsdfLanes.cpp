@@ -17,23 +17,23 @@ enum class Rows
 {
     None,
     Plain,
-    Bent,
+    Inside,
 };
 
 /// Holds two rows of a coat, between whose roughnesses that of the coat is.
 struct TwoRows
 {
     const float *first = nullptr, *second = nullptr;
-    float bend = 0.0f;
+    float critical = 0.0f;
 };
 
 /// Returns the albedo of a coat.
 template <Rows kRows> OSGRAYTRACE_INLINE float between(TwoRows rows, float fraction, float cosTheta)
 {
-    const float a = kRows == Rows::Bent ? bentRowAlbedo(rows.first, rows.bend, cosTheta)
-                                        : coatRowAlbedo(rows.first, cosTheta);
-    const float b = kRows == Rows::Bent ? bentRowAlbedo(rows.second, rows.bend, cosTheta)
-                                        : coatRowAlbedo(rows.second, cosTheta);
+    const float a = kRows == Rows::Inside ? insideRowAlbedo(rows.first, rows.critical, cosTheta)
+                                          : coatRowAlbedo(rows.first, cosTheta);
+    const float b = kRows == Rows::Inside ? insideRowAlbedo(rows.second, rows.critical, cosTheta)
+                                          : coatRowAlbedo(rows.second, cosTheta);
     return a + (b - a) * fraction;
 }
 
@@ -52,7 +52,8 @@ OSGRAYTRACE_INLINE void evalLanes(const BsdfLanes& s, const CoatAlbedoRow* rows,
 {
     constexpr bool kHasRows = kRows != Rows::None;
     const TwoRows two =
-        kHasRows ? TwoRows{rows[0].albedo.data(), rows[1].albedo.data(), rows[0].bend} : TwoRows();
+        kHasRows ? TwoRows{rows[0].albedo.data(), rows[1].albedo.data(), rows[0].critical}
+                 : TwoRows();
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
@@ -118,10 +119,10 @@ void evalAlike(const BsdfLanes& bsdfs, const CoatAlbedoRow* rows, const Vec3Lane
 {
     if (!rows)
         evalLanes<Rows::None>(bsdfs, nullptr, normal, wo, wi, lanes, fCos, pdfW);
-    else if (rows->bend == 0.0f)
+    else if (rows->critical == 0.0f)
         evalLanes<Rows::Plain>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
     else
-        evalLanes<Rows::Bent>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
+        evalLanes<Rows::Inside>(bsdfs, rows, normal, wo, wi, lanes, fCos, pdfW);
 }
 
 } // namespace

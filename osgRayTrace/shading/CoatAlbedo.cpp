@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <tuple>
 
 namespace osgRayTrace::engine
 {
@@ -18,56 +19,87 @@ namespace
 {
 
 /// Returns the mean of F(wo h) G2 / G1(wo) over visible normals: all that single scattering
-/// reflects.
-double albedoOf(double cosine, double alpha, float eta)
+/// reflects. azimuth: of wo, against the direction in which the facets have the width along.
+double albedoOf(double cosine, double azimuth, double along, double across, float eta)
 {
     // Total reflection has an edge, which takes more points.
     const int turns = eta < 1.0f ? 32 : 12, heights = eta < 1.0f ? 96 : 48;
     const double sine = std::sqrt(1.0 - cosine * cosine);
-    const auto lambda = [alpha](double z)
-    { return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 - z * z) / (z * z)) - 1.0); };
-    const double lambdaO = lambda(cosine);
-    const Vec3d stretched = glm::normalize(Vec3d(alpha * sine, 0.0, cosine));
+    const Vec3d wo(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
+    const double difference = across * across - along * along;
+    const auto lambda = [along, difference](const Vec3d& w)
+    {
+        const double z2 = w.z * w.z;
+        const double slope2 = along * along * (1.0 - z2) / z2 + difference * w.y * w.y / z2;
+        return 0.5 * (std::sqrt(1.0 + slope2) - 1.0);
+    };
+    const double lambdaO = lambda(wo);
+    const Vec3d stretched = glm::normalize(Vec3d(along * wo.x, across * wo.y, cosine));
+    const double span = azimuth == 0.0 ? M_PI : 2.0 * M_PI;
     double sum = 0.0;
     for (int j = 0; j < heights; ++j)
     {
         // The points are those of sampleGgxVisible: a cap of the sphere by height and angle. One
-        // half of the cap stands for both.
+        // half of the cap stands for both if wo is along.
         const double z = (1.0 - (j + 0.5) / heights) * (1.0 + stretched.z) - stretched.z;
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
         for (int i = 0; i < turns; ++i)
         {
-            const double phi = M_PI * (i + 0.5) / turns;
+            const double phi = span * (i + 0.5) / turns;
             const Vec3d cap = Vec3d(radius * std::cos(phi), radius * std::sin(phi), z) + stretched;
-            const Vec3d h = glm::normalize(Vec3d(alpha * cap.x, alpha * cap.y, cap.z));
-            const double cosH = sine * h.x + cosine * h.z;
-            const double wiZ = 2.0 * cosH * h.z - cosine;
-            if (!(wiZ > 0.0)) continue;
+            const Vec3d h = glm::normalize(Vec3d(along * cap.x, across * cap.y, cap.z));
+            const double cosH = wo.x * h.x + wo.y * h.y + cosine * h.z;
+            Vec3d wi = 2.0 * cosH * h - wo;
+            if (!(wi.z > 0.0)) continue;
+            wi.z = std::min(wi.z, 1.0);
             sum += fresnelDielectric(static_cast<float>(cosH), eta) * (1.0 + lambdaO) /
-                   (1.0 + lambdaO + lambda(std::min(wiZ, 1.0)));
+                   (1.0 + lambdaO + lambda(wi));
         }
     }
     return sum / (turns * heights);
 }
 
-/// Returns the cosine at which total reflection ends, 0 if there is none or if it is all but
-/// grazing.
-double bendOf(double eta)
+/// Returns the largest albedo over azimuths, and over strengths of anisotropy up to the given one
+/// if a texture decides on the strength.
+double largestAlbedoOf(double cosine, double alpha, const CoatShape& shape)
 {
-    constexpr double kLeastBend = 0.05;
-    const double bend = std::sqrt(std::max(1.0 - eta * eta, 0.0));
-    return eta < 1.0 && bend > kLeastBend ? bend : 0.0;
+    constexpr int kAzimuths = 4; // in a quarter
+    const auto brushed = [&](double strength)
+    {
+        const double along = alpha + (1.0 - alpha) * strength * strength;
+        double most = std::max(albedoOf(cosine, 0.0, along, alpha, shape.eta),
+                               albedoOf(cosine, 0.0, alpha, along, shape.eta));
+        // Outside of a body one of the axes has the largest albedo.
+        for (int i = 1; i < kAzimuths && shape.eta < 1.0f; ++i)
+            most = std::max(most,
+                            albedoOf(cosine, 0.5 * M_PI * i / kAzimuths, along, alpha, shape.eta));
+        return most;
+    };
+    const double strength = double(shape.anisotropy);
+    if (strength > 0.0 && !shape.varies) return brushed(strength);
+    const double plain = albedoOf(cosine, 0.0, alpha, alpha, shape.eta);
+    if (strength == 0.0) return plain;
+    return std::max({plain, brushed(0.5 * strength), brushed(strength)});
+}
+
+/// Returns the cosine of the critical angle, at which total reflection begins; 0 if there is none
+/// or if that cosine is less than 0.05, where the steps of rows from outside are dense enough.
+double criticalCosineOf(double eta)
+{
+    constexpr double kLeastCosine = 0.05;
+    const double cosine = std::sqrt(std::max(1.0 - eta * eta, 0.0));
+    return eta < 1.0 && cosine > kLeastCosine ? cosine : 0.0;
 }
 
 /// Returns the cosine of a place between two nodes of a row: the inverse of coatRowAlbedo's and
-/// bentRowAlbedo's steps, x in [0, 1].
-double cosineAt(double x, double bend)
+/// insideRowAlbedo's steps, x in [0, 1].
+double cosineAt(double x, double critical)
 {
-    if (bend == 0.0) return x * x;
+    if (critical == 0.0) return x * x;
     const double u = 2.0 * x;
-    if (u < 0.5) return bend * 2.0 * u * u;
-    if (u < 1.0) return bend * (1.0 - 2.0 * (1.0 - u) * (1.0 - u));
-    return bend + (1.0 - bend) * (u - 1.0) * (u - 1.0);
+    if (u < 0.5) return critical * 2.0 * u * u;
+    if (u < 1.0) return critical * (1.0 - 2.0 * (1.0 - u) * (1.0 - u));
+    return critical + (1.0 - critical) * (u - 1.0) * (u - 1.0);
 }
 
 /// Returns int 2 E c dc for the interpolated E, by the midpoint rule in fine steps.
@@ -78,31 +110,33 @@ double averageOf(const CoatAlbedoRow& row)
     for (int i = 0; i < kSteps; ++i)
     {
         const double x = (i + 0.5) / kSteps;
-        if (row.bend == 0.0f)
+        if (row.critical == 0.0f)
         {
             sum += row(static_cast<float>(x * x)) * 4.0 * x * x * x;
             continue;
         }
-        const double low = cosineAt(double(i) / kSteps, double(row.bend));
-        const double high = cosineAt((i + 1.0) / kSteps, double(row.bend));
-        sum += row(static_cast<float>(cosineAt(x, double(row.bend)))) * (high * high - low * low) *
-               kSteps;
+        const double low = cosineAt(double(i) / kSteps, double(row.critical));
+        const double high = cosineAt((i + 1.0) / kSteps, double(row.critical));
+        sum += row(static_cast<float>(cosineAt(x, double(row.critical)))) *
+               (high * high - low * low) * kSteps;
     }
     return sum / kSteps;
 }
 
 } // namespace
 
-std::shared_ptr<CoatAlbedo> CoatAlbedo::ofIndex(float eta)
+std::shared_ptr<CoatAlbedo> CoatAlbedo::ofShape(const CoatShape& shape)
 {
+    using CoatKey = std::tuple<float, float, bool>;
+    const CoatKey key(shape.eta, shape.anisotropy, shape.varies);
     static std::mutex mutex;
-    static NeverDestroyed<std::map<float, std::weak_ptr<CoatAlbedo>>> kept;
+    static NeverDestroyed<std::map<CoatKey, std::weak_ptr<CoatAlbedo>>> kept;
     const std::lock_guard<std::mutex> lock(mutex);
-    std::map<float, std::weak_ptr<CoatAlbedo>>& tables = *kept;
+    std::map<CoatKey, std::weak_ptr<CoatAlbedo>>& tables = *kept;
     for (auto entry = tables.begin(); entry != tables.end();)
         entry = entry->second.expired() ? tables.erase(entry) : std::next(entry);
-    std::shared_ptr<CoatAlbedo> table = tables[eta].lock();
-    if (!table) tables[eta] = table = std::make_shared<CoatAlbedo>(eta);
+    std::shared_ptr<CoatAlbedo> table = tables[key].lock();
+    if (!table) tables[key] = table = std::make_shared<CoatAlbedo>(shape);
     return table;
 }
 
@@ -113,19 +147,19 @@ void CoatAlbedo::makeRow(int row)
     constexpr int kSteps = kCoatSteps, kFine = 4; // kFine: steps between two nodes
     const double roughness = double(row) / kRoughnessSteps;
     const double alpha = std::max(roughness * roughness, double(kSmoothAlpha));
-    const double bend = bendOf(double(_eta));
+    const double critical = criticalCosineOf(double(_shape.eta));
     double fine[kSteps * kFine + 1];
     for (int i = 0; i <= kSteps * kFine; ++i)
     {
         const double x = double(i) / (kSteps * kFine);
-        fine[i] = albedoOf(std::clamp(cosineAt(x, bend), 1e-6, 1.0), alpha, _eta);
+        fine[i] = largestAlbedoOf(std::clamp(cosineAt(x, critical), 1e-6, 1.0), alpha, _shape);
     }
     CoatAlbedoRow& result = _rows[static_cast<std::size_t>(row)];
-    result.bend = static_cast<float>(bend);
+    result.critical = static_cast<float>(critical);
     for (int i = 0; i <= kSteps; ++i)
         result.albedo[static_cast<std::size_t>(i)] = static_cast<float>(fine[i * kFine]);
-    // The interpolated value is never less than the albedo, also at the bend that total reflection
-    // makes: the base may get too little there, but not more than there is.
+    // The interpolated value is never less than the albedo, also at the critical angle: the
+    // base may get too little there, but not more than there is.
     for (int i = 0; i < kSteps; ++i)
     {
         float &low = result.albedo[static_cast<std::size_t>(i)],

@@ -26,14 +26,15 @@ OSGRAYTRACE_INLINE float coatRowAlbedo(const float* albedo, float cosTheta)
     return albedo[i] + (albedo[i + 1] - albedo[i]) * (x - static_cast<float>(i));
 }
 
-/// Returns the same for a row from inside, whose nodes are dense around the cosine at which total
-/// reflection ends: E is steep there, and grows as a square root.
-OSGRAYTRACE_INLINE float bentRowAlbedo(const float* albedo, float bend, float cosTheta)
+/// Returns the same for a row from inside, whose nodes are dense around the cosine of the critical
+/// angle: E is steep there, and grows as a square root.
+OSGRAYTRACE_INLINE float insideRowAlbedo(const float* albedo, float critical, float cosTheta)
 {
     const float c = select(cosTheta > 0.0f, select(cosTheta < 1.0f, cosTheta, 1.0f), 0.0f);
-    // Half of the steps are below the bend, dense at both ends; half are above it.
-    const float s = c / bend, nearest = select(s < 0.5f, s, 1.0f - s);
-    const float root = std::sqrt(select(s < 1.0f, 0.5f * nearest, (c - bend) / (1.0f - bend)));
+    // Half of the steps are below the critical cosine, dense at both ends; half are above it.
+    const float s = c / critical, nearest = select(s < 0.5f, s, 1.0f - s);
+    const float root =
+        std::sqrt(select(s < 1.0f, 0.5f * nearest, (c - critical) / (1.0f - critical)));
     const float below = select(s < 0.5f, root, 1.0f - root);
     const float x = select(s < 1.0f, below, 1.0f + root) * (0.5f * static_cast<float>(kCoatSteps));
     const int i = static_cast<int>(x);
@@ -48,24 +49,32 @@ struct CoatAlbedoRow
 {
     std::array<float, kCoatSteps + 2> albedo{}; ///< the last value stands twice
     float average = 0.0f;
-    float bend = 0.0f; ///< cosine at which total reflection ends; 0: there is none, from outside
+    float critical = 0.0f; ///< cosine of the critical angle; 0: there is none, from outside
 
     float operator()(float cosTheta) const
     {
-        return bend > 0.0f ? bentRowAlbedo(albedo.data(), bend, cosTheta)
-                           : coatRowAlbedo(albedo.data(), cosTheta);
+        return critical > 0.0f ? insideRowAlbedo(albedo.data(), critical, cosTheta)
+                               : coatRowAlbedo(albedo.data(), cosTheta);
     }
 };
 
-/// Holds the rows of one index by roughness; each row is made when it is first asked for.
+/// Holds what the rows of a table have in common.
+struct CoatShape
+{
+    float eta = 1.0f;
+    float anisotropy = 0.0f; ///< strength, as that of PhysicalMaterial; rows then hold the largest
+                             ///< albedo over azimuths
+    bool varies = false;     ///< true: a texture decides on the strength, up to that one
+};
+
+/// Holds the rows of one shape by roughness; each row is made when it is first asked for.
 class CoatAlbedo
 {
 public:
-    /// Returns the table of an index, shared by all that use it at the same time. It is thread
-    /// safe.
-    static std::shared_ptr<CoatAlbedo> ofIndex(float eta);
+    /// Returns the table of a shape, shared by all that use it at the same time. It is thread safe.
+    static std::shared_ptr<CoatAlbedo> ofShape(const CoatShape& shape);
 
-    explicit CoatAlbedo(float eta) : _eta(eta) {}
+    explicit CoatAlbedo(const CoatShape& shape) : _shape(shape) {}
 
     /// Makes the rows around a roughness = sqrt(alpha) in [0, 1], or all. It is thread safe: rows
     /// that are made do not change.
@@ -85,7 +94,7 @@ private:
 
     void makeRow(int row);
 
-    float _eta;
+    CoatShape _shape;
     CheckedMutex _mutex; ///< held while rows are made
     std::array<CoatAlbedoRow, kRoughnessSteps + 1> _rows;
     std::array<bool, kRoughnessSteps + 1> _made{};

@@ -35,10 +35,9 @@ namespace osgRayTrace::engine
 ///
 /// A share of the surface, film, has the reflectance of ThinFilm.h in place of F' and of the
 /// metal's S. D and G2 of the interface have the width alphaTangent along tangent [Heitz18, eq. 1,
-/// 2]; the base below gets what the smaller width leaves. From outside that is no more than there
-/// is; from inside, where wide facets reach total reflection first, it may be too much. Light
-/// that is diffused to the other side leaves through an interface of the same kind, as from a leaf.
-/// If the surface is that of a clear body, too, the terms of both sides differ, and diffuse
+/// 2]; the base below gets 1 - E of the azimuth at which the facets reflect most: see CoatShape.
+/// Light that is diffused to the other side leaves through an interface of the same kind, as from a
+/// leaf. If the surface is that of a clear body, too, the terms of both sides differ, and diffuse
 /// transmission is not the same both ways there.
 std::optional<BsdfSample> sampleLayered(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                         Transport transport);

@@ -184,10 +184,13 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     const bool base = eta != 1.0f && m.metallic < 1.0f && colored &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
-    if (!base || roughness * roughness < kSmoothAlpha) return coat;
-    coat.rough = CoatAlbedo::ofIndex(eta);
+    const float anisotropy = m.detail ? m.detail->anisotropy : 0.0f;
+    if (!base || (roughness * roughness < kSmoothAlpha && anisotropy == 0.0f)) return coat;
+    const bool varies = anisotropy > 0.0f && textureOf(m, kAnisotropyRole) != kInvalid;
+    coat.rough = CoatAlbedo::ofShape({eta, anisotropy, varies});
     if (m.metallicRoughnessTexture == kInvalid)
-        coat.rough->prepare(roughness);
+        coat.rough->prepare(anisotropy > 0.0f ? std::max(roughness, std::sqrt(kSmoothAlpha))
+                                              : roughness);
     else
         coat.rough->prepareAll();
     return coat;

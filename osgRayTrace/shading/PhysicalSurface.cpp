@@ -160,7 +160,7 @@ void MaterialTable::prepareClearcoat(const Material& m)
 {
     const float roughness = std::clamp(m.detail->clearcoatRoughness, 0.0f, 1.0f);
     if (roughness * roughness < kSmoothAlpha) return;
-    if (!_clearcoat) _clearcoat = CoatAlbedo::ofIndex(1.5f);
+    if (!_clearcoat) _clearcoat = CoatAlbedo::ofShape({1.5f});
     if (m.detail->textures[kClearcoatRoughnessRole] == kInvalid)
         _clearcoat->prepare(roughness);
     else

@@ -100,7 +100,7 @@ TEST_CASE("bsdf: a white base takes what its rough coat leaves, no more",
           "[shading][statistics][long]")
 {
     // In a white furnace light is lost only where the table of the coat's reflectance is too high:
-    // from inside, a little at the bend that total reflection makes.
+    // from inside, a little at the critical angle.
     for (const float roughness : {0.0317f, 0.1f, 0.37f, 0.5f, 0.93f, 1.0f})
     {
         for (const float ior : {1.02f, 1.5f, 2.4f})

@@ -222,6 +222,7 @@ std::vector<BsdfKind> layeredKinds()
             d.iridescenceIor = 1.8f;
         };
         with("film on plastic" + rough, dielectric, film);
+        with("film on white of index 1" + rough, physical(roughness, 0.0f, 0.0f, 1.0f), film);
         if (roughness == 0.0f) continue;
         with("film on metal" + rough, physical(roughness, 1.0f, 0.0f, 1.5f), film);
         with("film on glass" + rough, physical(roughness, 0.0f, 1.0f, 1.5f), film);

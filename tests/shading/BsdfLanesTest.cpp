@@ -18,7 +18,7 @@ TEST_CASE("bsdf lanes: values and densities are those of each surface alone", "[
             if (!kind.bsdf.transmits()) kinds.push_back(kind);
     int inside = 0; // bases below rough coats, whose rows have total reflection
     for (BsdfKind kind : roughKinds())
-        if (kind.bsdf.coatRows && kind.bsdf.coatRows->bend > 0.0f)
+        if (kind.bsdf.coatRows && kind.bsdf.coatRows->critical > 0.0f)
         {
             kind.bsdf.transmission = Vec3(0.0f);
             kinds.push_back(kind);

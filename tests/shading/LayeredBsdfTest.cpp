@@ -31,7 +31,7 @@ Vec3 turned(Vec3 w)
 }
 
 /// Returns the share of a photon's flux that is scattered.
-Estimate albedoOf(const Bsdf& bsdf, double cosine, int samples, uint32_t seed)
+Estimate albedoOf(const Bsdf& bsdf, double cosine, int samples, uint32_t seed, double phi = 0.4)
 {
     Estimate estimate;
     Uniform random(seed);
@@ -39,7 +39,7 @@ Estimate albedoOf(const Bsdf& bsdf, double cosine, int samples, uint32_t seed)
     {
         const float uLobe = random(), u = random(), v = random();
         const std::optional<BsdfSample> sample =
-            sampleBsdf(bsdf, directionOf(cosine, 0.4), uLobe, u, v, Transport::Importance);
+            sampleBsdf(bsdf, directionOf(cosine, phi), uLobe, u, v, Transport::Importance);
         estimate.add(sample ? sample->weight.y : 0.0);
     }
     return estimate;
@@ -117,6 +117,26 @@ TEST_CASE("layers: no surface makes energy, and lossless ones keep all", "[shadi
     MaterialDetail thin;
     thin.thinWalled = true;
     CHECK(albedoOf(withDetail(dielectric(0.0f, 1.0f), thin), 0.5, 20000, 4).agrees(1.0, 1e-5));
+}
+
+TEST_CASE("layers: a white base makes no energy below brushed facets", "[shading][statistics]")
+{
+    // Cosines around .75, where total reflection ends within a body of index 1.5, and grazing ones.
+    for (const float transmission : {0.0f, 0.05f, 0.5f})
+        for (const float roughness : {0.0f, 0.1f, 0.5f})
+        {
+            MaterialDetail detail;
+            detail.anisotropy = roughness < 0.2f ? 0.5f : 1.0f;
+            const Bsdf bsdf =
+                withDetail(dielectric(roughness, transmission), detail, transmission == 0.0f);
+            for (const double cosine : {0.8, 0.77, 0.3, 0.03})
+                for (const double phi : {0.0, 0.8, 1.57})
+                {
+                    const Estimate share = albedoOf(bsdf, cosine, 20000, 7, phi);
+                    CAPTURE(transmission, roughness, cosine, phi, share.mean());
+                    CHECK(share.mean() < 1.002 + 4.0 * share.standardError());
+                }
+        }
 }
 
 TEST_CASE("layers: reflection and thin walls are the same both ways", "[shading]")
