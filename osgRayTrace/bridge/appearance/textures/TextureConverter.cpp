@@ -1,5 +1,4 @@
-// TextureConverter.cpp - converts texture targets, wrap and filter modes, and caches textures.
-// Layer: bridge.
+// TextureConverter.cpp - converts targets, wrap and filter modes of textures. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 
@@ -81,8 +80,7 @@ uint32_t TextureConverter::index(const osg::Texture* texture, TextureContent con
     return entry.index;
 }
 
-/// Returns whether the texture is encoded in sRGB. The answer stays after the image was given up if
-/// the format alone tells it.
+/// Returns whether the texture is encoded in sRGB; also of an image given up, if its format tells.
 bool TextureConverter::isSrgb(const osg::Texture& texture) const
 {
     const osg::Image* image = texture.getImage(0);
@@ -92,8 +90,7 @@ bool TextureConverter::isSrgb(const osg::Texture& texture) const
            isSrgbFormat(known->second.internalFormat);
 }
 
-/// Converts the texture again in place, so that the entry keeps its index. Returns false if there
-/// is nothing to sample.
+/// Converts the texture again; the entry keeps its index. Returns false if it has no texels.
 bool TextureConverter::convert(Entry& entry, const osg::Texture& texture, bool decode,
                                ConversionReport& report)
 {
@@ -150,8 +147,7 @@ std::shared_ptr<Texture> TextureConverter::converted(const osg::Texture& texture
     return result;
 }
 
-/// Gives the entry's texture mips. Its osg::Image may be gone. shared: scenes may hold the texture,
-/// so that it is copied.
+/// Gives the texture mips. Its osg::Image may be gone. shared: a scene may hold the texture.
 void TextureConverter::addMips(Entry& entry, const osg::Texture& texture, bool shared) const
 {
     const osg::Texture::FilterMode filter = texture.getFilter(osg::Texture::MIN_FILTER);
@@ -176,8 +172,7 @@ bool TextureConverter::knows(const osg::Texture& texture) const
 }
 
 /// Returns whether the entry's texture is unchanged. An image that was given up after it went to
-/// OpenGL (setUnRefImageDataAfterApply) counts as unchanged: the texture that was converted before
-/// stays.
+/// OpenGL (setUnRefImageDataAfterApply) is: the texture that was converted before stays.
 bool TextureConverter::isCurrent(const Entry& entry, const osg::Texture& texture) const
 {
     if (!entry.converted || entry.texture.get() != &texture) return false;
