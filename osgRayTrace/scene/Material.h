@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/scene/Fog.h"
 #include "osgRayTrace/scene/Mesh.h"
 #include "osgRayTrace/scene/TextureMapping.h"
 
@@ -205,6 +206,7 @@ struct Material
     bool cullsAllRays =
         false; ///< all rays from the eye pass them by the culled side; light the other way
     bool clockwise = false; ///< true: OpenGL's front is the mesh's clockwise side
+    Fog fog;
 
     // Textures are indices into Scene::textures or kInvalid.
     uint32_t baseColorTexture = kInvalid; ///< FixedFunction: unit 0; Physical: multiplies baseColor

@@ -16,6 +16,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
     if (isInvisible(material)) return;
     traits.textures |= isTextured(material);
     traits.blended |= material.blended;
+    traits.fog |= material.fog.mode != FogMode::None;
     traits.vertexColors |= material.vertexColorUse != VertexColorUse::None;
     if (material.model == MaterialModel::FixedFunction)
     {

@@ -14,6 +14,7 @@ struct SceneTraits
     bool textures = false;
     bool mipmaps = false; ///< some material looks a texture with mips up: see RayCones.h
     bool vertexColors = false;
+    bool fog = false;           ///< some surface has OpenGL's fog
     bool blended = false;       ///< some surface lets light through by its alpha
     bool fixedFunction = false; ///< some material is FixedFunction
     bool physical = false;      ///< some material is Physical and more than a lamp

@@ -53,6 +53,13 @@ Mat3 eyeFromEngine(const View& view)
     return Mat3(glm::transpose(axes));
 }
 
+/// Returns the view's origin in engine space.
+Vec3 eyeOf(const View& view, const Scene& scene)
+{
+    const Vec3d eye(glm::inverse(view.viewFromWorld)[3]);
+    return Vec3((eye - scene.origin) / scene.unit);
+}
+
 } // namespace
 
 /// Decides whether the image restarts or continues; nothing else does. Returns true if there is
@@ -144,6 +151,7 @@ PassContext SessionState::contextOfPass(int pass) const
     context.camera = camera;
     context.width = filmView.width;
     context.height = filmView.height;
+    context.eye = eyeOf(filmView, filmScene->scene());
     context.eyeFromEngine = eyeFromEngine(filmView);
     context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;

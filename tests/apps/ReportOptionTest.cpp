@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <osg/Fog>
 #include <osg/Geometry>
 #include <osg/Group>
 #include <osg/Image>
@@ -41,7 +42,9 @@ std::string writeScene(const TemporaryFolder& folder, bool triangles)
     root->setName("town");
     root->addChild(strokes(GL_LINES, "fence").get());
     if (triangles) root->addChild(strokes(GL_TRIANGLES, "roof").get());
-    root->getOrCreateStateSet()->setMode(GL_FOG, osg::StateAttribute::ON);
+    osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+    fog->setFogCoordinateSource(osg::Fog::FOG_COORDINATE);
+    root->getOrCreateStateSet()->setAttributeAndModes(fog);
     REQUIRE(osgDB::writeNodeFile(*root, folder / "town.osgt"));
     return folder / "town.osgt";
 }
@@ -56,7 +59,7 @@ TEST_CASE("osgraytrace --report: what became of a scene, without a picture", "[a
     CHECK(outcome.exitCode == 0);
     CHECK_THAT(outcome.output,
                Contains("Ray traced:\n         1  geometry\n              town/roof\n"));
-    CHECK_THAT(outcome.output, Contains("         1  fog\n              town/roof\n"));
+    CHECK_THAT(outcome.output, Contains("         1  fog coordinate\n              town/roof\n"));
     CHECK_THAT(outcome.output, Contains("not with all that OpenGL does:"));
     CHECK_THAT(outcome.output, Contains("              town/fence\n"));
     CHECK(folder.fileNames().empty());
@@ -64,7 +67,7 @@ TEST_CASE("osgraytrace --report: what became of a scene, without a picture", "[a
     const Outcome stored = osgraytrace(folder, town + " --report --size 8 8 --stats s.json");
     CHECK(stored.exitCode == 0);
     const auto json = nlohmann::json::parse(contents(folder / "s.json"));
-    CHECK(json["conversionPaths"]["approximated.fog"] == nlohmann::json{"town/roof"});
+    CHECK(json["conversionPaths"]["approximated.fog-coordinate"] == nlohmann::json{"town/roof"});
     CHECK(json["passes"] == 1);
     CHECK(osgraytrace(folder, town + " --report --size 8 8 --passes 3 --stats s.json").exitCode ==
           0);

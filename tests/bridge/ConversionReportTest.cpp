@@ -10,6 +10,7 @@
 #include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/Statistics>
 
+#include <osg/Fog>
 #include <osg/LightSource>
 #include <osgText/Text>
 
@@ -45,13 +46,15 @@ Strings pathsOf(const ConversionResult& result, const std::string& what)
 TEST_CASE("conversion report: paths of the first four, each once", "[bridge]")
 {
     osg::ref_ptr<osg::Group> root = town();
-    root->getOrCreateStateSet()->setMode(GL_FOG, osg::StateAttribute::ON);
+    osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+    fog->setFogCoordinateSource(osg::Fog::FOG_COORDINATE);
+    root->getOrCreateStateSet()->setAttributeAndModes(fog);
     for (const char* name : {"a", "b", "b", "c", "d", "e", "f"})
         root->addChild(named(name));
     const ConversionResult result = convertGraph(root);
     const Strings first{"town/a", "town/b", "town/c", "town/d"};
-    CHECK(countOf(result, "approximated.fog") == 7); // by the materials' conversion
-    CHECK(pathsOf(result, "approximated.fog") == first);
+    CHECK(countOf(result, "approximated.fog-coordinate") == 7); // by the materials' conversion
+    CHECK(pathsOf(result, "approximated.fog-coordinate") == first);
     CHECK(countOf(result, "converted.geometry") == 7);
     CHECK(pathsOf(result, "converted.geometry") == first);
 }
@@ -165,16 +168,16 @@ TEST_CASE("conversion report: as text", "[bridge]")
 {
     Statistics statistics;
     CHECK(conversionReport(statistics) == "Nothing was converted.\n");
-    statistics.conversion = {{"approximated.fog", 12},
+    statistics.conversion = {{"approximated.fog-coordinate", 12},
                              {"converted.geometry", 3},
                              {"converted.light", 0},
                              {"instance.invalid-transform", 1},
                              {"skipped.not-finite", 1234567}};
-    statistics.conversionPaths = {{"approximated.fog", {"town/a", "town/b"}}};
+    statistics.conversionPaths = {{"approximated.fog-coordinate", {"town/a", "town/b"}}};
     CHECK(conversionReport(statistics) == "Ray traced:\n"
                                           "         3  geometry\n"
                                           "Ray traced, but not with all that OpenGL does:\n"
-                                          "        12  fog\n"
+                                          "        12  fog coordinate\n"
                                           "              town/a\n"
                                           "              town/b\n"
                                           "Bad data, left out:\n"

@@ -9,6 +9,7 @@
 #include <osg/BlendFunc>
 #include <osg/ClipNode>
 #include <osg/CullFace>
+#include <osg/Fog>
 #include <osg/FrontFace>
 #include <osg/Geometry>
 #include <osg/LightModel>
@@ -162,6 +163,24 @@ TEST_CASE("live state: mips of textures that are small in the picture", "[bridge
     watched.edit(
         "blended",
         [&] { texture.setFilter(osg::Texture::MIN_FILTER, osg::Texture::LINEAR_MIPMAP_LINEAR); });
+}
+
+TEST_CASE("live state: fog", "[bridge]")
+{
+    StateGraph graph;
+    osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+    fog->setDensity(0.05f);
+    fog->setColor({0.9f, 0.1f, 0.9f, 1.0f});
+    Watched watched(graph);
+    watched.edit("on", [&] { graph.state->setAttributeAndModes(fog); });
+    watched.edit("density", [&] { fog->setDensity(0.1f); });
+    watched.edit("mode", [&] { fog->setMode(osg::Fog::EXP2); });
+    watched.edit("colour", [&] { fog->setColor({0.1f, 0.9f, 0.1f, 1.0f}); });
+    watched.edit("radial", [&] { fog->setUseRadialFog(true); });
+    watched.edit("linear", [&] { fog->setMode(osg::Fog::LINEAR); });
+    watched.edit("end", [&] { fog->setEnd(30.0f); });
+    watched.edit("start", [&] { fog->setStart(-40.0f); });
+    watched.edit("off", [&] { graph.state->setMode(GL_FOG, osg::StateAttribute::OFF); });
 }
 
 TEST_CASE("live state: texture units", "[bridge]")

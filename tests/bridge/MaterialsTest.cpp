@@ -7,9 +7,12 @@
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/CullFace>
+#include <osg/Fog>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/PolygonOffset>
+
+#include <limits>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -309,6 +312,63 @@ TEST_CASE("PhysicalMaterial wins over osg::Material and is taken as it is", "[br
     CHECK(material.vertexColorUse == VertexColorUse::None);
     CHECK_FALSE(result.scene->displayReferred);
     CHECK(result.scene->lights.empty());
+}
+
+TEST_CASE("fog is that of the state, and without one of OpenGL's first values", "[bridge]")
+{
+    const auto geometry = triangleGeometry();
+    osg::StateSet* state = geometry->getOrCreateStateSet();
+    osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+    fog->setMode(osg::Fog::LINEAR);
+    fog->setColor({0.25f, 0.5f, 0.75f, 0.1f});
+    fog->setDensity(-2.0f);
+    fog->setStart(3.0f);
+    fog->setEnd(std::numeric_limits<float>::infinity());
+    fog->setUseRadialFog(true);
+    state->setAttribute(fog);
+    CHECK(materialOf(geometry).fog.mode == FogMode::None); // the mode is off
+
+    state->setMode(GL_FOG, kOn);
+    Fog converted = materialOf(geometry).fog;
+    CHECK(converted.mode == FogMode::Linear);
+    CHECK(converted.radial);
+    CHECK(converted.color == Vec3(0.25f, 0.5f, 0.75f));
+    CHECK(converted.density == 0.0f);
+    CHECK(converted.start == 3.0f);
+    CHECK(converted.end == 1.0f);
+    fog->setMode(osg::Fog::EXP2);
+    CHECK(materialOf(geometry).fog.mode == FogMode::ExponentialSquared);
+
+    state->removeAttribute(fog);
+    state->setMode(GL_FOG, kOn);
+    converted = materialOf(geometry).fog;
+    CHECK(converted.mode == FogMode::Exponential);
+    CHECK(converted.color == Vec3(0.0f));
+    CHECK(converted.density == 1.0f);
+    CHECK_FALSE(converted.radial);
+}
+
+TEST_CASE("fog of a linear scene is decoded from sRGB, and separates materials", "[bridge]")
+{
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    const auto geometry = triangleGeometry();
+    for (const float red : {0.5f, 0.6f})
+    {
+        osg::ref_ptr<osg::Group> group = new osg::Group;
+        osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+        fog->setColor({red, 1.0f, 0.0f, 1.0f});
+        group->getOrCreateStateSet()->setAttributeAndModes(fog);
+        group->getOrCreateStateSet()->setAttribute(new PhysicalMaterial);
+        group->addChild(geometry);
+        root->addChild(group);
+    }
+    const ConversionResult result = convertGraph(root);
+    REQUIRE(result.scene->instances.size() == 2);
+    CHECK_FALSE(result.scene->displayReferred);
+    const Material& first = result.scene->materials[result.scene->instances[0].material];
+    const Material& second = result.scene->materials[result.scene->instances[1].material];
+    CHECK(first.fog.color == Vec3(linearFromSrgb(0.5f), 1.0f, 0.0f));
+    CHECK(second.fog.color == Vec3(linearFromSrgb(0.6f), 1.0f, 0.0f));
 }
 
 TEST_CASE("colour rule: fixed-function scenes as shown, others decoded from sRGB", "[bridge]")

@@ -13,6 +13,7 @@
 #include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/Depth>
+#include <osg/Fog>
 #include <osg/FrontFace>
 #include <osg/LightModel>
 #include <osg/Material>
@@ -114,6 +115,9 @@ void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute)
         hasher.add(restart->getRestartIndex());
     else if (const auto* plane = dynamic_cast<const osg::ClipPlane*>(&attribute))
         hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
+    else if (const auto* fog = dynamic_cast<const osg::Fog*>(&attribute))
+        hasher.add(fog->getMode(), fog->getDensity(), fog->getStart(), fog->getEnd(),
+                   fog->getColor(), fog->getUseRadialFog(), fog->getFogCoordinateSource());
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         hasher.add(front->getMode());
     else if (const auto* mask = dynamic_cast<const osg::ColorMask*>(&attribute))

@@ -111,7 +111,7 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.draw-callback", "drawables with a draw callback, which is not called"},
     {"approximated.effect", "osgFX effects, of which the children are traced as they are"},
     {"approximated.environment-transform", "environment lights below a scale that differs by axis"},
-    {"approximated.fog", "drawables with fog"},
+    {"approximated.fog-coordinate", "drawables whose fog is by a coordinate of each vertex"},
     {"approximated.hardware-pose", "drawables that a program would pose"},
     {"approximated.instanced-draw", "primitive sets that are drawn several times, traced once"},
     {"approximated.light-model", "light models with another ambient light than the first"},

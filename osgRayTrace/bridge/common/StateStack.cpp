@@ -126,6 +126,8 @@ std::optional<AttributeSlot> attributeSlot(osg::StateAttribute::Type type)
         return kClipPlaneSlot;
     case osg::StateAttribute::DEPTH:
         return kDepthSlot;
+    case osg::StateAttribute::FOG:
+        return kFogSlot;
     default:
         return std::nullopt;
     }

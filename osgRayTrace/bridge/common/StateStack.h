@@ -76,6 +76,7 @@ enum AttributeSlot : unsigned int
     kColorMaskSlot,
     kAssemblyProgramSlot, ///< last osg::VertexProgram or osg::FragmentProgram met
     kDepthSlot,
+    kFogSlot,
     kUnitSlot, ///< first slot of unit 0, see UnitSlot; those of unit 1 follow
     kAttributeSlots = kUnitSlot + 8,
 };

@@ -25,6 +25,7 @@
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/integrators/shared/FogLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
@@ -86,6 +87,23 @@ void passMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
         attenuate(tile.context, block.rays, bounce.surface, block.throughput);
 }
 
+/// Puts fog between the eye and what it sees, also by way of mirrors.
+void addFog(Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    LaneMask mirrored = 0;
+    for (const int i : lanesIn(bounce.number > 0 ? bounce.surface.hits : 0))
+        mirrored |= static_cast<LaneMask>(!block.flagsOf(i).isScattered()) << i;
+    const LaneMask fromCamera = bounce.number == 0 ? bounce.surface.hits : 0;
+    FogLanes fog;
+    fogOf(tile.context, {block.rays, bounce.surface, fromCamera, mirrored}, block.depth, fog);
+    for (const int i : lanesIn(fog.lanes))
+    {
+        const Vec3 throughput = laneOf(block.throughput, i);
+        tile.sums.add(block.flagsOf(i), throughput * laneOf(fog.added, i));
+        setLane(block.throughput, i, throughput * fog.share[i]);
+    }
+}
+
 /// Traces the paths of a block over one bounce.
 void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
 {
@@ -111,6 +129,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
                         tile.result.firstHits);
     if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, number);
     addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
+    if (traits.fog) addFog(tile, block, bounce);
     addEmission(tile, block, bounce.surface, use);
     for (const int i : lanesIn(number == 0 ? bounce.surface.hits : 0))
         tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;

@@ -27,6 +27,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.flags[k] = from.flags[i];
     to.cones.width[k] = from.cones.width[i];
     to.cones.spread[k] = from.cones.spread[i];
+    to.depth[k] = from.depth[i];
 }
 
 } // namespace

@@ -20,6 +20,7 @@ struct PathBlock
     UintLanes seed;       ///< seed of the pixel
     UintLanes flags;      ///< words of PathFlags
     ConeLanes cones;      ///< set in scenes with SceneTraits::mipmaps
+    FloatLanes depth;     ///< way from the eye to the ray's start, in scenes with SceneTraits::fog
     LaneMask active = 0;
 
     PathFlags flagsOf(int lane) const { return PathFlags(flags[lane]); }

@@ -173,6 +173,7 @@ void beginReuse(Tile& tile, PhotonUse use)
 
 void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 {
+    const Vec3Lanes& throughput = tile.paths.blocks[b].throughput; // below 1 behind fog
     for (const int i :
          lanesIn(bounce.diffuse & ~bounce.terminating & ~bounce.surface.terminatorLanes))
     {
@@ -182,7 +183,7 @@ void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
         setLane(first.position, b, laneOf(bounce.surface.position, i));
         setLane(first.geometricNormal, b, laneOf(bounce.surface.geometricNormal, i));
         setLane(first.normal, b, laneOf(bounce.normal, i));
-        setLane(first.albedo, b, laneOf(bounce.albedo, i));
+        setLane(first.albedo, b, laneOf(bounce.albedo, i) * laneOf(throughput, i));
         first.offset[b] = bounce.surface.offset[i];
     }
 }

@@ -22,6 +22,7 @@ struct PassContext
     const std::vector<Light>* lights = nullptr; ///< scene lights, placed for the view if eye-space
     CameraRays camera;
     int width = 0, height = 0;            ///< size of the image [pixels]
+    Vec3 eye{0.0f};                       ///< the view's origin, engine space
     Vec3 towardsViewer{0.0f, 0.0f, 1.0f}; ///< the view's +z axis, unit, engine space
     Mat3 eyeFromEngine{1.0f};             ///< rotation into the view's axes
     RenderOptions options;                ///< options with the chosen integrator, never Automatic

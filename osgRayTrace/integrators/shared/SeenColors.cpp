@@ -4,6 +4,7 @@
 #include "osgRayTrace/integrators/shared/SeenColors.h"
 
 #include "osgRayTrace/accel/SurfaceAttributes.h"
+#include "osgRayTrace/integrators/shared/FogLanes.h"
 #include "osgRayTrace/shading/TextureLanes.h"
 
 #include <algorithm>
@@ -237,6 +238,17 @@ void instanceColors(const PassContext& context, const RayHitBlock& rays,
         }
 }
 
+/// Mixes the fog's colour into the colours of what the eye sees.
+void addFog(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
+            Vec3Lanes& colors)
+{
+    FloatLanes depths;
+    FogLanes fog;
+    fogOf(context, {rays, surface, kAllLanes, 0}, depths, fog);
+    for (const int i : lanesIn(fog.lanes))
+        setLane(colors, i, laneOf(colors, i) * fog.share[i] + laneOf(fog.added, i));
+}
+
 } // namespace
 
 void seenColors(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
@@ -250,6 +262,7 @@ void seenColors(const PassContext& context, const RayHitBlock& rays, const Surfa
         instanceColors(context, rays, surface, lanes, colors);
         left &= ~lanes;
     }
+    if (context.traced->traits().fog) addFog(context, rays, surface, colors);
     if (context.traced->scene().displayReferred) decodeColors(colors);
 }
 

@@ -7,8 +7,9 @@
 namespace osgRayTrace::engine
 {
 
-/// Sets colors to what the surfaces make of light of 1: bsdfAlbedo, and what they emit on top. The
-/// colours are linear, also in a display-referred scene, and 0 in lanes that hit nothing.
+/// Sets colors to what the surfaces that camera rays met make of light of 1: bsdfAlbedo, and what
+/// they emit on top, behind the fog if there is any. The colours are linear, also in a
+/// display-referred scene, and 0 in lanes that hit nothing.
 void seenColors(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,
                 Vec3Lanes& colors);
 

@@ -143,7 +143,7 @@ void push(WhittedTile& tile, const ShadingBlock& block, int i, Vec3 direction, V
     if (!(largest * etaScale >= kSmallestWeight)) return;
     tile.stack.push_back({leaveFacet(block.surface, i, direction), direction, weight, etaScale,
                           block.pixel[i], hash(block.seed[i] + 0x9e3779b9u), block.depth[i] + 1,
-                          coneOf(tile, block, i)});
+                          coneOf(tile, block, i), block.fogDepths[i]});
 }
 
 void spawn(WhittedTile& tile, const ShadingBlock& block)
@@ -155,7 +155,8 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
         const ShadingFrame frame(laneOf(m.normal, i));
         const Vec3 wo = frame.toLocal(-directionOf(block.rays.ray, i));
         const SpecularLobes lobes = specularLobes(m.bsdfs[i], wo);
-        const Vec3 weight = laneOf(block.weight, i);
+        const bool fogged = (block.fog.lanes >> i) & 1u;
+        const Vec3 weight = laneOf(block.weight, i) * (fogged ? block.fog.share[i] : 1.0f);
         const float etaScale = block.etaScale[i];
         const Vec3 geometric = laneOf(block.surface.geometricNormal, i);
         const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
@@ -212,6 +213,7 @@ LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
                               hash(block.seed[i] + 0x85ebca6bu),
                               block.depth[i],
                               coneOf(tile, block, i),
+                              block.fogDepths[i],
                               fromCamera,
                               block.layers[i] + 1});
     }
@@ -232,6 +234,21 @@ void addOwnLight(const WhittedTile& tile, ShadingBlock& block)
     }
 }
 
+/// Finds the fog of the hits. Rays that go on behind a blended mirror start at the depth of the
+/// mirror, like all rays of its point.
+void findFog(const WhittedTile& tile, ShadingBlock& block)
+{
+    fogOf(tile.context, {block.rays, block.surface, block.fromCamera, kAllLanes}, block.fogDepths,
+          block.fog);
+}
+
+void addFog(ShadingBlock& block)
+{
+    for (const int i : lanesIn(block.fog.lanes))
+        setLane(block.radiance, i,
+                laneOf(block.radiance, i) * block.fog.share[i] + laneOf(block.fog.added, i));
+}
+
 /// Sets the radiance of all hits of some blocks of the group (lanes without a hit are undefined),
 /// and pushes the rays that go on.
 void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
@@ -241,6 +258,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
         const SceneTraits& traits = tile.context.traced->traits();
         if (traits.normalMaps) applyNormalMaps(*tile.context.traced, block->rays, block->surface);
         if (traits.mipmaps) followCones(*block);
+        if (traits.fog) findFog(tile, *block);
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
         block->passed = traits.blended ? passThrough(tile, *block) : 0;
@@ -251,6 +269,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
         if (block->materials.emissive) addOwnLight(tile, *block);
+        if (block->fog.lanes) addFog(*block);
         if (block->materials.physical) spawn(tile, *block);
     }
 }
@@ -277,6 +296,7 @@ void traceSecondary(WhittedTile& tile)
         block.depth[i] = from.depth;
         block.layers[i] = from.layers;
         setLane(block.cones, i, from.cone);
+        block.fogDepths[i] = from.fogDepth;
         active |= 1u << i;
         if (fromCamera) block.fromCamera |= 1u << i;
         tile.stack.pop_back();

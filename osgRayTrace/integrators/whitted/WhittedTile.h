@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/integrators/shared/FogLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/LightGrid.h"
 #include "osgRayTrace/integrators/shared/RayCones.h"
@@ -24,6 +25,7 @@ struct SecondaryRay
     uint32_t seed;
     int depth;
     RayCone cone;
+    float fogDepth = 0.0f;   ///< see fogOf; in scenes with SceneTraits::fog
     bool fromCamera = false; ///< true: a camera ray that goes on behind blended surfaces
     int layers = 0;          ///< number of blended surfaces passed one after the other
 };
@@ -57,8 +59,10 @@ struct ShadingBlock
     Vec3Lanes weight;
     FloatLanes etaScale; ///< ratio of the weight outside of all glass to weight
     FloatLanes firstU,
-        firstV;      ///< first sample on the first area light, see drawFirstPoints
-    ConeLanes cones; ///< set in scenes with SceneTraits::mipmaps
+        firstV;           ///< first sample on the first area light, see drawFirstPoints
+    ConeLanes cones;      ///< set in scenes with SceneTraits::mipmaps
+    FloatLanes fogDepths; ///< see fogOf; in scenes with SceneTraits::fog
+    FogLanes fog;         ///< fog of the hits; of no lane in scenes without it
     int depth[kLanes];
     int layers[kLanes];      ///< number of blended surfaces, see SecondaryRay
     LaneMask fromCamera = 0; ///< lanes of camera rays, and of those that go on

@@ -11,6 +11,7 @@
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/AlphaFunc>
+#include <osg/Fog>
 #include <osg/FrontFace>
 #include <osg/LightModel>
 #include <osg/Material>
@@ -145,6 +146,38 @@ void setFront(Material& m, const FaceColors& face)
     m.alpha = face.alpha;
 }
 
+FogMode fogModeOf(const osg::Fog& fog)
+{
+    switch (fog.getMode())
+    {
+    case osg::Fog::LINEAR:
+        return FogMode::Linear;
+    case osg::Fog::EXP:
+        return FogMode::Exponential;
+    case osg::Fog::EXP2:
+        return FogMode::ExponentialSquared;
+    }
+    return FogMode::None; // OpenGL refuses other modes
+}
+
+/// Returns the fog that a state has. Without an attribute OpenGL's first values hold: black,
+/// exponential, of density 1.
+Fog fogOf(const GraphState& state)
+{
+    Fog fog;
+    if (!state.isOn(kFogBit)) return fog;
+    fog.mode = FogMode::Exponential;
+    const auto* source = state.attribute<osg::Fog>(kFogSlot);
+    if (!source) return fog;
+    fog.mode = fogModeOf(*source);
+    fog.radial = source->getUseRadialFog();
+    fog.color = rgb(source->getColor());
+    fog.density = std::max(finiteOr(source->getDensity(), 0.0f), 0.0f);
+    fog.start = finiteOr(source->getStart(), 0.0f);
+    fog.end = finiteOr(source->getEnd(), 1.0f);
+    return fog;
+}
+
 AlphaTest comparisonOf(osg::AlphaFunc::ComparisonFunction function)
 {
     switch (function)
@@ -185,6 +218,8 @@ Material MaterialConverter::material(const GraphState& state, const SurfaceInput
     Material material = isPhysical ? physical(state, inputs) : fixedFunction(state, inputs);
     applyOpacity(material, state);
     applyFaces(material, state, placement);
+    material.fog = fogOf(state);
+    if (_rules.linear) material.fog.color = decoded(material.fog.color);
     if (!isPhysical)
     {
         applyTextureUnits(material, state, placement, _textures, _report);

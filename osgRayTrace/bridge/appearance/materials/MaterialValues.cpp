@@ -35,6 +35,7 @@ public:
         if (m.second.texture != kInvalid)
             add(m.second.environment, m.second.environmentColor, m.second.mapping);
         if (m.hasBack) add(m.back);
+        if (m.fog.mode != FogMode::None) add(m.fog);
         if (m.detail) add(*m.detail);
     }
 
@@ -58,6 +59,14 @@ private:
             add(color);
         add(face.shininess);
         add(face.alpha);
+    }
+    void add(const Fog& fog)
+    {
+        _values.push_back(0xf0600000u + 2u * static_cast<uint32_t>(fog.mode) +
+                          uint32_t(fog.radial));
+        add(fog.color);
+        for (const float value : {fog.density, fog.start, fog.end})
+            add(value);
     }
     void add(const MaterialDetail& d)
     {

@@ -9,6 +9,7 @@
 #include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/Depth>
+#include <osg/Fog>
 #include <osg/PolygonMode>
 #include <osg/PolygonOffset>
 #include <osg/Program>
@@ -101,7 +102,9 @@ void countApproximations(const GraphState& state, ConversionReport& report)
     const Blending blending = blendingOf(state);
     if (blending == Blending::Additive || blending == Blending::Other)
         report.count("approximated.blending");
-    if (state.isOn(kFogBit)) report.count("approximated.fog");
+    const auto* fog = state.attribute<osg::Fog>(kFogSlot);
+    if (fog && state.isOn(kFogBit) && fog->getFogCoordinateSource() == osg::Fog::FOG_COORDINATE)
+        report.count("approximated.fog-coordinate");
     const auto* plane = state.attribute<osg::ClipPlane>(kClipPlaneSlot);
     if (plane && plane->getClipPlaneNum() < kClipPlanes &&
         state.isOn(kClipPlaneBit + plane->getClipPlaneNum()))
