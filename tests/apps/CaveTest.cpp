@@ -175,6 +175,13 @@ TEST_CASE("what is wrong is named with its line")
           ":1:", "stereoMode=\"LENTICULAR\" is not supported");
     check("<ChannelConfig><Channel name=\"0\" width=\"0\"/></ChannelConfig>" + one,
           ":1:", "<Channel>: width=\"0\" is not from 1 to");
+    for (const std::string side : {"width", "height"})
+    {
+        const std::string large = "name=\"0\" " + side + "=\"32769\"/>";
+        const std::string refusal = side + "=\"32769\" is not from 1 to 32768";
+        check("<WindowConfig><Window " + large + "</WindowConfig>" + one, ":1:", refusal);
+        check("<ChannelConfig><Channel " + large + "</ChannelConfig>" + one, ":1:", refusal);
+    }
     check("<ChannelConfig><Channel name=\"0\" windowIndex=\"4\"/></ChannelConfig>" + one, "c.xml",
           "channel 0 is in window 4, which does not exist");
     check("<Near value=\"5\"/><Far value=\"5\"/>" + one, "c.xml", "no depth range");

@@ -1,5 +1,6 @@
 // FogTest.cpp - fog changes what the eye sees by the distance of it, in all integrators alike.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/ToneMap.h"
 #include "tests/integrators/Measure.h"
 
 using namespace osgRayTrace::engine;
@@ -188,6 +189,32 @@ TEST_CASE("fog: a picture of one depth is the clear one mixed with the colour of
         }
         CHECK(means[0].x > 0.1f);
         checkColor(means[1], mixed(means[0], fog, double(share)), 1e-4);
+    }
+}
+
+TEST_CASE("fog: what guides the filters shows the fog, too", "[integrators]")
+{
+    const Fog fog = fogOf(FogMode::Exponential);
+    for (const bool displayReferred : {false, true})
+    {
+        SceneBuilder builder;
+        builder.scene->displayReferred = displayReferred;
+        builder.add(quadMesh({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}),
+                    fogged(lambert(Vec3(0.25f, 0.5f, 1.0f)), fog));
+        RenderSession session(std::make_shared<Workers>(1));
+        RenderOptions options = optionsOf(IntegratorKind::Path);
+        options.centredFirstPass = true;
+        session.setScene(builder.build());
+        session.setView(viewDown());
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = 1;
+        REQUIRE(session.render(rule).status.ok());
+        const Vec3 expected = mixed(Vec3(0.25f, 0.5f, 1.0f), fog, std::exp(-0.07 * 7.0));
+        const Vec3 albedo = session.surfaceSamples().at(11).albedo;
+        for (int c = 0; c < 3; ++c) // decoded within 0.002
+            CHECK(albedo[c] ==
+                  Approx(displayReferred ? linearFromSrgb(expected[c]) : expected[c]).margin(2e-3));
     }
 }
 
