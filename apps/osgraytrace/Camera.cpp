@@ -3,7 +3,6 @@
 #include "Camera.h"
 
 #include "apps/common/Failure.h"
-#include "apps/common/StoredView.h"
 
 #include <osgRayTrace/Renderer>
 
@@ -21,22 +20,6 @@ constexpr double kOsgViewerFovyDegrees =
     29.148431; ///< osgViewer's default display settings [degrees]
 const osg::Vec4 kOsgViewerClearColor(0.2f, 0.2f, 0.4f, 1.0f);
 constexpr double kNearFarRatio = 0.0005; ///< default of osg::CullSettings
-
-Placement homePlacement(const Options& options, osg::Node& scene)
-{
-    Placement placement;
-    placement.fovyDegrees = options.fovyDegrees.value_or(kOsgViewerFovyDegrees);
-    osg::ref_ptr<Renderer> renderer = new Renderer;
-    renderer->setScene(&scene);
-    renderer->setSize(options.width, options.height);
-    renderer->setHomeView(placement.fovyDegrees);
-
-    const osg::BoundingSphere& bound = scene.getBound();
-    const osg::Matrixd view = renderer->getViewMatrix();
-    const double distance = bound.valid() ? -(osg::Vec3d(bound.center()) * view).z() : 1.0;
-    view.getLookAt(placement.eye, placement.center, placement.up, distance);
-    return placement;
-}
 
 /// Holds distances from the eye along the line of sight.
 struct DepthRange
@@ -89,12 +72,28 @@ std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scen
 
 } // namespace
 
-Camera cameraOf(const Options& options, osg::Node& scene)
+Placement homePlacement(const Options& options, osg::Node& scene)
+{
+    Placement placement;
+    placement.fovyDegrees = options.fovyDegrees.value_or(kOsgViewerFovyDegrees);
+    osg::ref_ptr<Renderer> renderer = new Renderer;
+    renderer->setScene(&scene);
+    renderer->setSize(options.width, options.height);
+    renderer->setHomeView(placement.fovyDegrees);
+
+    const osg::BoundingSphere& bound = scene.getBound();
+    const osg::Matrixd view = renderer->getViewMatrix();
+    const double distance = bound.valid() ? -(osg::Vec3d(bound.center()) * view).z() : 1.0;
+    view.getLookAt(placement.eye, placement.center, placement.up, distance);
+    return placement;
+}
+
+Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
 {
     const double aspect = double(options.width) / options.height;
     const std::optional<Placement> chosen = chosenPlacement(options, scene);
     const std::optional<Placement> stored = chosen ? chosen : storedPlacement(scene);
-    Placement placement = stored ? *stored : homePlacement(options, scene);
+    Placement placement = stored.value_or(home);
     placement.eye = options.eye.value_or(placement.eye);
     placement.center = options.center.value_or(placement.center);
     placement.up = options.up.value_or(placement.up);

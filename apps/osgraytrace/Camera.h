@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Options.h"
+#include "apps/common/StoredView.h"
 
 #include <osg/Matrixd>
 #include <osg/Node>
@@ -18,10 +19,13 @@ struct Camera
     osg::Vec4 clearColor; ///< colour of the scene's first osg::ClearNode, or else osgViewer's
 };
 
+/// Returns the view that osgviewer opens with, for the scene as it is now.
+Placement homePlacement(const Options& options, osg::Node& scene);
+
 /// Returns the camera that the options name; without a name the first osg::CameraView of the scene,
-/// or else the view that osgviewer opens with. Values of the options replace those of the view.
+/// or else home. Values of the options replace those of the view.
 /// Near and far planes are those that osgviewer would compute from the scene's bound. Throws
 /// Failure(kUsage) if the options define no view, or the scene has no camera of the name.
-Camera cameraOf(const Options& options, osg::Node& scene);
+Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home);
 
 } // namespace osgRayTrace::app

@@ -34,6 +34,7 @@ struct RawOptions
     std::vector<double> eye, center, up;
     double fovyDegrees = 0.0;
     std::string context;
+    std::string frames;
 };
 
 std::string commaSeparated(std::string range)
@@ -136,6 +137,23 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->option_text("DEGREES")
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
+    app.add_option("--at", options.at,
+                   "Time that the model is shown at: animations go on till then")
+        ->option_text("SECONDS")
+        ->check(between(-1e-300, 1e9, "a number from 0 on"));
+    app.add_option("--frames", raw.frames,
+                   "Frames of an animation, both included; -o and --stats then name the place of "
+                   "the number: out.%04d.png")
+        ->option_text("FIRST:LAST")
+        ->excludes("--at");
+    app.add_option("--fps", options.framesPerSecond, "Frames a second (25)")
+        ->option_text("RATE")
+        ->needs("--frames")
+        ->check(positive());
+    app.add_flag("--skip-existing", options.skipsExisting,
+                 "Leaves out the frames whose files are there")
+        ->needs("--frames");
+
     app.add_option("--time", options.seconds, "Stop after so many seconds")
         ->option_text("SECONDS")
         ->check(positive());
@@ -187,6 +205,12 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
     if (!raw.center.empty()) options.center = vectorOf(raw.center);
     if (!raw.up.empty()) options.up = vectorOf(raw.up);
     if (app.count("--fovy")) options.fovyDegrees = raw.fovyDegrees;
+    if (!raw.frames.empty())
+    {
+        options.frames = frameRangeOf(raw.frames);
+        if (!options.frames)
+            throw Failure(kUsage, "--frames " + raw.frames + ": is not FIRST:LAST, as 0:250");
+    }
     if (raw.context == "osmesa") options.context = Context::OsMesa;
     if (raw.context == "egl") options.context = Context::Egl;
 }
@@ -214,10 +238,25 @@ void checkWrittenMaterials(const Options& options)
         if (given) throw Failure(kUsage, std::string("--write-materials excludes ") + name);
 }
 
+/// Throws Failure(kUsage) if frames cannot be told apart by their files, or have one file for all.
+void checkFrames(const Options& options)
+{
+    if (!options.frames) return;
+    if (options.outputs.empty()) throw Failure(kUsage, "--frames needs an -o FILE");
+    if (!options.reference.empty()) throw Failure(kUsage, "--frames excludes --reference");
+    std::vector<std::string> files = options.outputs;
+    if (!options.statistics.empty()) files.push_back(options.statistics);
+    for (const std::string& file : files)
+        if (!frameName(file, 0))
+            throw Failure(kUsage, file + ": --frames needs one place for the number in the name, "
+                                         "as in out.%04d.png");
+}
+
 void check(const Options& options)
 {
     if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
     checkWrittenMaterials(options);
+    checkFrames(options);
     const bool lists = options.names || !options.writtenMaterials.empty();
     if (options.outputs.empty() && !options.report && !lists)
         throw Failure(kUsage, "no -o FILE given; --help shows the options");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "Frames.h"
+
 #include <osgRayTrace/RayTraceSettings>
 
 #include <osg/Vec3d>
@@ -35,6 +37,11 @@ struct Options
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> up;
     std::optional<double> fovyDegrees;
+
+    double at = 0.0;                  ///< time that the scene is shown at [s]
+    std::optional<FrameRange> frames; ///< nothing: one picture
+    double framesPerSecond = 25.0;
+    bool skipsExisting = false; ///< frames whose files are there are not rendered
 
     double seconds = 0.0;       ///< 0: no limit
     double relativeError = 0.0; ///< 0: no target

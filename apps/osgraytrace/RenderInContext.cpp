@@ -1,12 +1,12 @@
 // RenderInContext.cpp - renders like an application with a viewer. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "DrawnLayer.h"
+#include "Particles.h"
 #include "Picture.h"
 
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
-#include "osgRayTrace/bridge/common/LibraryName.h"
 
 #include <osgRayTrace/RayTracedScene>
 #include <osgRayTrace/offscreen/FrameCapture>
@@ -58,26 +58,11 @@ void drawFrame(osgViewer::Viewer& viewer, double time)
     viewer.renderingTraversals();
 }
 
-/// Looks for anything of osgParticle.
-class ParticleFinder : public osg::NodeVisitor
-{
-public:
-    ParticleFinder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override
-    {
-        found = found || engine::isFrom(&node, "osgParticle");
-        if (!found) traverse(node);
-    }
-
-    bool found = false;
-};
-
 /// Particles are emitted in the frames before a picture, as they are in a viewer. Frames are drawn
-/// for five seconds before time 0, at which all scenes are shown; they are small, as nobody sees
-/// them. 0.03 does not divide 1: -1 means "no time yet" to osgParticle.
+/// from five seconds before time 0 on; they are small, as nobody sees them. 0.03 does not divide 1:
+/// -1 means "no time yet" to osgParticle.
 constexpr double kParticleStep = 0.03; ///< [s]
-constexpr int kParticleFrames = 167;
+constexpr int kParticleFrames = 167;   ///< before time 0
 
 void emitParticles(osgViewer::Viewer& viewer, RayTraceDrawable& drawable, const Options& options)
 {
@@ -85,7 +70,8 @@ void emitParticles(osgViewer::Viewer& viewer, RayTraceDrawable& drawable, const 
     drawable.setPaused(true);
     osg::Camera& camera = *viewer.getCamera();
     camera.setViewport(0, 0, (options.width + 15) / 16, (options.height + 15) / 16);
-    for (int frame = -kParticleFrames; frame < 0 && !isInterrupted(); ++frame)
+    for (int frame = -kParticleFrames; frame * kParticleStep < options.at && !isInterrupted();
+         ++frame)
         drawFrame(viewer, frame * kParticleStep);
     camera.setViewport(0, 0, options.width, options.height);
     drawable.setPaused(false);
@@ -99,7 +85,7 @@ Statistics accumulate(const Options& options, osgViewer::Viewer& viewer,
     int passes = -1;
     do
     {
-        drawFrame(viewer, 0.0);
+        drawFrame(viewer, options.at);
         statistics = drawable.getStatistics();
         if (!statistics.ok) throw Failure(kCannotRender, statistics.message);
         if (statistics.passes == passes)
@@ -142,9 +128,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
     osgViewer::Viewer viewer;
     setUp(viewer, options, *traced, camera);
 
-    ParticleFinder particles;
-    scene.accept(particles);
-    if (particles.found) emitParticles(viewer, drawable, options);
+    if (hasParticles(scene)) emitParticles(viewer, drawable, options);
     Picture picture;
     picture.statistics = accumulate(options, viewer, drawable, progress);
     picture.radiance = drawable.getColorImage();
@@ -154,7 +138,7 @@ Picture renderInContext(const Options& options, osg::Node& scene, const Camera& 
     osg::ref_ptr<FrameCapture> capture = new FrameCapture;
     viewer.getCamera()->setFinalDrawCallback(capture.get());
     drawable.setPaused(true);
-    const auto draw = [&viewer] { drawFrame(viewer, 0.0); };
+    const auto draw = [&] { drawFrame(viewer, options.at); };
     draw();
     if (!picture.radiance || !capture->getColorImage()->data())
         throw Failure(kCannotRender, "nothing was drawn in the context");

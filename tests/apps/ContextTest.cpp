@@ -285,6 +285,19 @@ TEST_CASE("osgraytrace in a context: particles have been emitted, for a seed the
     CHECK((contents(folder / "x.exr") != first));
 }
 
+TEST_CASE(
+    "osgraytrace in a context: the particles of a frame do not depend on the frames before it",
+    "[apps][gl]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgDB::writeNodeFile(*fountain(), folder / "fountain.osgt"));
+    const std::string render = "fountain.osgt" + kView + "--context egl --passes 2 ";
+    REQUIRE(osgraytrace(folder, render + "--frames 0:2 --fps 0.7 -o p%d.exr").exitCode == 0);
+    REQUIRE(osgraytrace(folder, render + "--at 2.857142857142857 -o at.exr").exitCode == 0);
+    CHECK((contents(folder / "p2.exr") == contents(folder / "at.exr")));
+    CHECK((contents(folder / "p2.exr") != contents(folder / "p1.exr")));
+}
+
 TEST_CASE("osgraytrace in a context: time stands still, as it does without one", "[apps][gl]")
 {
     const TemporaryFolder folder;

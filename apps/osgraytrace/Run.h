@@ -1,0 +1,40 @@
+// Run.h - from models to files: one picture, or the frames of an animation. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Picture.h"
+
+#include "apps/common/ErrorMeasures.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgRayTrace::app
+{
+
+constexpr const char* kProgram = "osgraytrace";
+
+/// Renders the picture that the options ask for, and writes it. Returns the exit code; throws
+/// Failure.
+int runPicture(Options options);
+
+/// Renders the frames that the options ask for one after the other, and writes them. Each looks as
+/// if it were the only one. Throws Failure; the frames before it are written then.
+int runFrames(const Options& options);
+
+/// Throws the failures of files that the options ask for, as far as they are known before the work.
+void checkFiles(const Options& options);
+
+/// Takes the settings of the scene; those of the command line win. Throws Failure(kCannotLoad).
+void takeSettingsOf(osg::Node& scene, Options& options);
+
+/// Renders the scene as it is now. Throws Failure.
+Picture render(const Options& options, osg::Node& scene, const Placement& home);
+
+/// Writes a picture and its statistics; all that can be written, whatever else fails. Returns the
+/// exit code.
+int writeAll(const Options& options, const std::vector<std::string>& outputs,
+             const Picture& picture, const std::optional<ErrorMeasures>& measures);
+
+} // namespace osgRayTrace::app
