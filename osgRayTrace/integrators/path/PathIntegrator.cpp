@@ -111,7 +111,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
                         tile.result.firstHits);
     if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, number);
     addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
-    addEmission(tile, block, bounce.surface, use);
+    addEmission(tile, block, bounce.surface, number, use);
     for (const int i : lanesIn(number == 0 ? bounce.surface.hits : 0))
         tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     if (last)
@@ -135,6 +135,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         sampleLights(tile, block, bounce);
     }
     if (number == 0 && tile.reuse.active) recordFirstSurfaces(tile, b, bounce);
+    if (traced.lights().tree())
+        block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
     scatter(tile, block, bounce);
 }
 
@@ -162,7 +164,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
             bounceBlock(tile, b, number, last, use);
-        compactPaths(tile.paths);
+        compactPaths(tile.paths, context.traced->lights().tree() != nullptr);
     }
     connectPaths(tile);
 }
