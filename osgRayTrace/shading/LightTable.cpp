@@ -142,10 +142,13 @@ void LightTable::plantTree(const LightTable* previous, const MaterialTable* mate
         _tree = previous->_tree;
     else if (before && before->size() == emitters.size())
     {
-        _tree = std::make_shared<const LightTree>(*before, emitters, *_scene);
-        if (_tree->spread() > kMostSpread * _tree->spreadAtBuild()) _tree = nullptr;
+        _tree = std::make_shared<const LightTree>(*before, std::move(emitters), *_scene);
+        if (_tree->spread() > kMostSpread * _tree->spreadAtBuild())
+            _tree = std::make_shared<const LightTree>(lightEmitters(*_scene, *this, materials),
+                                                      *_scene);
     }
-    if (!_tree) _tree = std::make_shared<const LightTree>(std::move(emitters), *_scene);
+    else
+        _tree = std::make_shared<const LightTree>(std::move(emitters), *_scene);
     for (const uint32_t i : _deltaLights)
         if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
     findEmitters();
@@ -174,6 +177,23 @@ void LightTable::findEmitters()
     }
 }
 
+std::vector<uint32_t> LightTable::lightsInSpace() const
+{
+    std::vector<uint32_t> lights;
+    lights.reserve(_scene->lights.size());
+    std::vector<bool> listed(_scene->lights.size(), false);
+    const auto add = [&](uint32_t light)
+    {
+        if (!listed[light]) lights.push_back(light);
+        listed[light] = true;
+    };
+    for (uint32_t number = 0; _tree && number < _tree->size(); ++number)
+        add(_tree->emitter(number).light);
+    for (uint32_t light = 0; light < _scene->lights.size(); ++light)
+        add(light);
+    return lights;
+}
+
 uint32_t LightTable::emitterOf(uint32_t light, uint32_t primitive) const
 {
     const Record& own = record(light);
@@ -187,6 +207,8 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
     const Mesh& mesh = *scene.meshes[instance.mesh];
     EmissiveMesh emissive;
     std::vector<double> areas;
+    emissive.triangles.reserve(mesh.triangles.size());
+    areas.reserve(mesh.triangles.size());
     double total = 0.0;
     float largest = 0.0f;
     for (std::size_t number = 0; number < mesh.triangles.size(); ++number)

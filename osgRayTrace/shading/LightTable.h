@@ -94,6 +94,11 @@ public:
     /// kInvalid: the tree never chooses it.
     uint32_t emitterOf(uint32_t light, uint32_t primitive) const;
 
+    /// Returns all lights in an order in which neighbours are neighbours in space: that of the
+    /// tree, by the first of a light's emitters, and then those beside it. Without a tree it is
+    /// their own.
+    std::vector<uint32_t> lightsInSpace() const;
+
     /// Returns the triangles of an emitting mesh.
     const EmissiveMesh& mesh(uint32_t light) const { return _meshes[record(light).mesh]; }
 

@@ -202,7 +202,8 @@ std::shared_ptr<Scene> shiningSphere(int triangles, Vec3 offset)
     for (uint32_t i = 0; i <= rows; ++i)
         for (uint32_t j = 0; j < columns; ++j)
         {
-            const float a = kPi * static_cast<float>(i) / static_cast<float>(rows);
+            // The poles are left open, as triangles there would have no area.
+            const float a = kPi * static_cast<float>(i + 1) / static_cast<float>(rows + 2);
             const float b = 2.0f * kPi * static_cast<float>(j) / static_cast<float>(columns);
             const float r = 1.0f + 0.1f * std::sin(9.0f * a) * std::sin(7.0f * b);
             positions.push_back(offset + r * Vec3(std::sin(a) * std::cos(b),
