@@ -8,6 +8,7 @@
 #include "apps/osgraytracebench/modes/DenoiseMode.h"
 #include "apps/osgraytracebench/modes/FeaturesMode.h"
 #include "apps/osgraytracebench/modes/InteractiveMode.h"
+#include "apps/osgraytracebench/modes/LampsMode.h"
 #include "apps/osgraytracebench/modes/LimitMode.h"
 #include "apps/osgraytracebench/modes/MovingMode.h"
 #include "apps/osgraytracebench/modes/PickMode.h"
@@ -121,6 +122,11 @@ Run addParts(CLI::App& mode, const std::string& parts)
 Run addLimit(CLI::App& mode)
 {
     return addParts<measureLimit>(mode, "box 1920x1080, sphere 640x360, 1 M triangles");
+}
+
+Run addLamps(CLI::App& mode)
+{
+    return addParts<measureLamps>(mode, "hall, rooms, points, triangles, million");
 }
 
 Run addFeatures(CLI::App& mode)
@@ -283,6 +289,7 @@ public:
     CommandLine()
     {
         add("limit", "a whole frame, a path traced one and a build against Embree alone", addLimit);
+        add("lamps", "error and cost of path tracing under many lamps", addLamps);
         add("features", "what features cost a scene that does not use them", addFeatures);
         add("photons", "photon maps against a plain grid and Embree alone; error against time",
             addPhotons);

@@ -294,7 +294,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
-    lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr);
+    lights =
+        std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr, &materials->table);
     traits = sameTraits ? old->traits : sceneTraits(*scene, sameMeshes ? &old->traits : nullptr);
 }
 

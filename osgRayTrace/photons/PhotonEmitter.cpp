@@ -88,10 +88,11 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
     if (_targets.empty()) _guidedShare = 0.0f;
 
     // Lights are chosen in proportion to power. The power of point and directional lights is what
-    // they send into the scene.
+    // they send into the scene. Groups of lights that a PhotonGuide does not tell apart are
+    // clusters in space.
     std::vector<double> powers;
     double total = 0.0;
-    for (uint32_t i = 0; i < lights.size(); ++i)
+    for (const uint32_t i : traced.lights().lightsInSpace())
     {
         const Light& light = lights[i];
         double power = 0.0;

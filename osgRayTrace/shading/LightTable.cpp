@@ -16,9 +16,6 @@ bool isArea(const Light& light)
     return light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;
 }
 
-/// The scale is that of surface points: see surfacesOf.
-constexpr float kOffsetScale = 32.0f * 0x1p-24f;
-
 /// The inverse of this falloff is still a float.
 constexpr float kLeastFalloff = 1e-37f;
 
@@ -74,15 +71,16 @@ LightTable::Record LightTable::parallelogram(const Light& light)
     record.area = static_cast<float>(glm::length(perpendicular));
     record.normal = Vec3(perpendicular / glm::length(perpendicular));
     record.offset =
-        kOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
+        kLightOffsetScale * (sumAbs(light.corner) + sumAbs(light.edgeU) + sumAbs(light.edgeV));
     return record;
 }
 
 /// Builds the tables. Lights without power cost their slot and no more: a scene may hold millions.
-LightTable::LightTable(const Scene& scene, const LightTable* previous)
+LightTable::LightTable(const Scene& scene, const LightTable* previous,
+                       const MaterialTable* materials)
     : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
-    std::vector<double> powers, deltaPowers;
+    std::vector<double> powers;
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
     {
         const Light& light = scene.lights[i];
@@ -97,10 +95,7 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous)
         {
             // Black lights would each cost every surface point a look.
             const Vec3 sum = light.ambient + light.diffuse + light.specular;
-            if (sum == Vec3(0.0f)) continue;
-            _deltaLights.push_back(i);
-            deltaPowers.push_back(double(sumAbs(light.ambient)) + double(sumAbs(light.diffuse)) +
-                                  double(sumAbs(light.specular)));
+            if (sum != Vec3(0.0f)) _deltaLights.push_back(i);
             continue;
         }
         if (!(luminance(light.radiance) > 0.0f)) continue;
@@ -124,9 +119,86 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous)
         powers.push_back(power);
     }
     _cumulative = cumulativeOf(powers);
-    _deltaCumulative = cumulativeOf(deltaPowers);
     for (std::size_t k = 0; k < _areaLights.size(); ++k)
         _records[k + 1].pmf = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
+    plantTree(previous, materials);
+    std::vector<double> deltaPowers;
+    for (const uint32_t i : lightsBesideTree())
+        deltaPowers.push_back(double(sumAbs(scene.lights[i].ambient)) +
+                              double(sumAbs(scene.lights[i].diffuse)) +
+                              double(sumAbs(scene.lights[i].specular)));
+    _deltaCumulative = cumulativeOf(deltaPowers);
+}
+
+/// Makes the tree, or takes over its shape if the emitters are as many as before and have not moved
+/// far apart.
+void LightTable::plantTree(const LightTable* previous, const MaterialTable* materials)
+{
+    constexpr double kMostSpread = 1.5; // times the spread for which the shape was made
+    std::vector<LightEmitter> emitters = lightEmitters(*_scene, *this, materials);
+    if (emitters.size() <= kMostWithoutTree) return;
+    const LightTree* before = previous ? previous->_tree.get() : nullptr;
+    if (before && before->holds(emitters))
+        _tree = previous->_tree;
+    else if (before && before->size() == emitters.size())
+    {
+        _tree = std::make_shared<const LightTree>(*before, std::move(emitters), *_scene);
+        if (_tree->spread() > kMostSpread * _tree->spreadAtBuild())
+            _tree = std::make_shared<const LightTree>(lightEmitters(*_scene, *this, materials),
+                                                      *_scene);
+    }
+    else
+        _tree = std::make_shared<const LightTree>(std::move(emitters), *_scene);
+    for (const uint32_t i : _deltaLights)
+        if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
+    findEmitters();
+}
+
+/// Records the emitters of area lights, so that paths that meet a light find its probability.
+void LightTable::findEmitters()
+{
+    std::size_t entries = 0;
+    for (const uint32_t i : _areaLights)
+    {
+        Record& own = _records[_slots[i]];
+        own.emitters = static_cast<uint32_t>(entries);
+        const Light& light = _scene->lights[i];
+        entries += light.kind == LightKind::Mesh
+                       ? _scene->meshes[_scene->instances[light.instance].mesh]->triangles.size()
+                       : 1;
+    }
+    _emitterOf.assign(entries, kInvalid);
+    for (uint32_t number = 0; number < _tree->size(); ++number)
+    {
+        const LightEmitter& emitter = _tree->emitter(number);
+        if (emitter.isPoint()) continue;
+        const uint32_t triangle = emitter.flags & kTriangle ? emitter.primitive : 0;
+        _emitterOf[record(emitter.light).emitters + triangle] = number;
+    }
+}
+
+std::vector<uint32_t> LightTable::lightsInSpace() const
+{
+    std::vector<uint32_t> lights;
+    lights.reserve(_scene->lights.size());
+    std::vector<bool> listed(_scene->lights.size(), false);
+    const auto add = [&](uint32_t light)
+    {
+        if (!listed[light]) lights.push_back(light);
+        listed[light] = true;
+    };
+    for (uint32_t number = 0; _tree && number < _tree->size(); ++number)
+        add(_tree->emitter(number).light);
+    for (uint32_t light = 0; light < _scene->lights.size(); ++light)
+        add(light);
+    return lights;
+}
+
+uint32_t LightTable::emitterOf(uint32_t light, uint32_t primitive) const
+{
+    const Record& own = record(light);
+    if (!(own.area > 0.0f)) return kInvalid;
+    return _emitterOf[own.emitters + (own.mesh == kInvalid ? 0 : primitive)];
 }
 
 EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& record)
@@ -135,16 +207,22 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
     const Mesh& mesh = *scene.meshes[instance.mesh];
     EmissiveMesh emissive;
     std::vector<double> areas;
+    emissive.triangles.reserve(mesh.triangles.size());
+    areas.reserve(mesh.triangles.size());
     double total = 0.0;
     float largest = 0.0f;
-    for (const UVec3& t : mesh.triangles)
+    for (std::size_t number = 0; number < mesh.triangles.size(); ++number)
     {
+        const UVec3& t = mesh.triangles[number];
         Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
         if (instance.placed)
             for (Vec3& q : p)
                 q = transformPoint(instance.engineFromLocal, q);
-        EmissiveMesh::Triangle triangle{p[0],       p[1] - p[0], p[2] - p[0],
-                                        Vec2(0.0f), Vec2(0.0f),  Vec2(0.0f)};
+        EmissiveMesh::Triangle triangle;
+        triangle.a = p[0];
+        triangle.ab = p[1] - p[0];
+        triangle.ac = p[2] - p[0];
+        triangle.primitive = static_cast<uint32_t>(number);
         if (!mesh.uvs.empty())
         {
             triangle.ua = mesh.uvs[t.x];
@@ -154,6 +232,7 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
         const double area =
             0.5 * glm::length(glm::cross(glm::dvec3(triangle.ab), glm::dvec3(triangle.ac)));
         if (!(area > 0.0)) continue;
+        triangle.area = static_cast<float>(area);
         emissive.triangles.push_back(triangle);
         largest = std::max(largest, sumAbs(p[0]) + sumAbs(triangle.ab) + sumAbs(triangle.ac));
         areas.push_back(area);
@@ -161,7 +240,7 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
     }
     emissive.cumulative = cumulativeOf(areas);
     record.area = static_cast<float>(total);
-    record.offset = kOffsetScale * largest;
+    record.offset = kLightOffsetScale * largest;
     return emissive;
 }
 

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/shading/LightTree.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 
 #include <memory>
@@ -49,24 +50,57 @@ struct EmissiveMesh
 {
     struct Triangle
     {
-        Vec3 a, ab, ac; ///< engine space
-        Vec2 ua, uab, uac;
+        Vec3 a{0.0f}, ab{0.0f}, ac{0.0f}; ///< engine space
+        Vec2 ua{0.0f}, uab{0.0f}, uac{0.0f};
+        float area = 0.0f;
+        uint32_t primitive = 0; ///< triangle of the mesh
     };
     std::vector<Triangle> triangles;
     std::vector<float> cumulative; ///< running share of the area; the last is 1
 };
+
+/// Up to this number of emitters there is no tree: measured, see LightTable.cpp.
+constexpr std::size_t kMostWithoutTree = 8;
+
+/// Points on a light are off its plane by this share of the sum of its coordinates, at most. The
+/// scale is that of surface points: see surfacesOf.
+constexpr float kLightOffsetScale = 32.0f * 0x1p-24f;
 
 /// Holds the lights of a scene, ready to be sampled. The table is built once for a scene; thread
 /// safe.
 class LightTable
 {
 public:
-    /// Builds the table. previous: table of the last snapshot, whose tables of the environment are
-    /// taken over if possible; or null.
-    explicit LightTable(const Scene& scene, const LightTable* previous = nullptr);
+    /// Builds the table. previous: table of the last snapshot, whose tables of the environment and
+    /// whose tree are taken over if possible; or null. materials: for what textures emit; null if
+    /// nothing is textured.
+    explicit LightTable(const Scene& scene, const LightTable* previous = nullptr,
+                        const MaterialTable* materials = nullptr);
 
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
+
+    /// Returns the tree over the scene's emitters; null if they are so few that each may be
+    /// sampled.
+    const LightTree* tree() const { return _tree.get(); }
+
+    /// Returns the delta lights that are not in the tree; all of them without a tree.
+    const std::vector<uint32_t>& lightsBesideTree() const
+    {
+        return _tree ? _lightsBesideTree : _deltaLights;
+    }
+
+    /// Returns the number of a light's emitter in the tree; primitive: the triangle of its mesh.
+    /// kInvalid: the tree never chooses it.
+    uint32_t emitterOf(uint32_t light, uint32_t primitive) const;
+
+    /// Returns all lights in an order in which neighbours are neighbours in space: that of the
+    /// tree, by the first of a light's emitters, and then those beside it. Without a tree it is
+    /// their own.
+    std::vector<uint32_t> lightsInSpace() const;
+
+    /// Returns the triangles of an emitting mesh.
+    const EmissiveMesh& mesh(uint32_t light) const { return _meshes[record(light).mesh]; }
 
     /// Returns the environment, which may be black; null without one.
     const PlacedEnvironment* environment() const { return _environment.get(); }
@@ -96,8 +130,7 @@ public:
     Choice chooseAreaLight(float u) const;
     float areaLightPmf(uint32_t light) const { return record(light).pmf; }
 
-    /// Chooses one of the point, spot and directional lights in proportion to their colours. u in
-    /// [0,1).
+    /// Chooses one of lightsBesideTree() in proportion to their colours. u in [0,1).
     Choice chooseDeltaLight(float u) const;
 
     /// Returns a point on an area light, uniform by area; nothing if the light is seen from its
@@ -124,6 +157,7 @@ private:
         float offset = 0.0f;
         Vec3 normal{0.0f};        ///< parallelograms only
         uint32_t mesh = kInvalid; ///< index into _meshes
+        uint32_t emitters = 0;    ///< first entry of _emitterOf
     };
     const Record& record(uint32_t light) const
     {
@@ -134,6 +168,8 @@ private:
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;
     static EmissiveMesh meshOf(const Scene& scene, const Light& light, Record& record);
+    void plantTree(const LightTable* previous, const MaterialTable* materials);
+    void findEmitters();
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
@@ -144,6 +180,9 @@ private:
     std::vector<float> _cumulative;      ///< an area light: running probability; the last is 1
     std::vector<float> _deltaCumulative; ///< a delta light: running probability; the last is 1
     std::vector<EmissiveMesh> _meshes;   ///< for records of LightKind::Mesh
+    std::shared_ptr<const LightTree> _tree;
+    std::vector<uint32_t> _lightsBesideTree;
+    std::vector<uint32_t> _emitterOf; ///< by light and triangle: number in the tree
 };
 
 /// Returns the share of a point light's light that is left at a distance [OpenGL21, eq. 2.2].

@@ -96,25 +96,21 @@ TEST_CASE("many lights: a pass takes a bounded number of samples", "[integrators
     {
         RenderOptions options = optionsOf(IntegratorKind::Whitted);
         options.lightSamples = samples;
-        const Picture picture = render(underSquares(3000), view, options, 1);
-        CAPTURE(samples, picture.progress.rays.shadow);
-        CHECK(shadowRaysAPixel(picture) <= 64.0 * samples);
-        CHECK(shadowRaysAPixel(picture) > 16.0 * samples);
+        for (const auto& traced : {underSquares(3000), underPoints(3000)})
+            CHECK(shadowRaysAPixel(render(traced, view, options, 1)) == 4.0 * samples);
     }
-    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
-        CHECK(shadowRaysAPixel(render(underPoints(3000), view, optionsOf(kind, 2), 1)) <= 256.0);
+    CHECK(shadowRaysAPixel(
+              render(underPoints(3000), view, optionsOf(IntegratorKind::Path, 2), 1)) == 4.0);
 }
 
 TEST_CASE("many lights: up to the bound each light has all of its samples", "[integrators]")
 {
     const View view = floorView();
     const RenderOptions options = optionsOf(IntegratorKind::Whitted);
-    const Picture picture = render(underSquares(64), view, options, 1);
-    CHECK(shadowRaysAPixel(picture) == 64.0 * 4.0);
-    CHECK(picture.progress.lights.sampledAreaLights == 64);
-    CHECK(picture.progress.lights.samplesOfEach == 4);
-    CHECK(render(underSquares(100), view, options, 1).progress.lights.samplesOfEach == 2);
-    CHECK(shadowRaysAPixel(render(underPoints(256), view, options, 1)) == 256.0);
+    CHECK(shadowRaysAPixel(render(underSquares(32), view, options, 1)) == 32.0 * 4.0);
+    CHECK(shadowRaysAPixel(render(underSquares(33), view, options, 1)) == 16.0);
+    CHECK(shadowRaysAPixel(render(underPoints(32), view, options, 1)) == 32.0);
+    CHECK(shadowRaysAPixel(render(underPoints(33), view, options, 1)) == 16.0);
 
     RenderOptions cells = options; // numbers of stratified samples are squares
     cells.lightSampling = LightSampling::Stratified;
@@ -147,12 +143,18 @@ TEST_CASE("many lights: the progress says how many are sampled", "[integrators]"
     const auto lightsOf = [](const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind)
     { return render(traced, floorView(), optionsOf(kind, 2), 1).progress.lights; };
     const SampledLightCounts squares = lightsOf(underSquares(1000), IntegratorKind::Whitted);
-    CHECK(squares.areaLights == 1000);
-    CHECK(squares.sampledAreaLights == 256);
-    CHECK(squares.samplesOfEach == 1);
-    CHECK(squares.wantedOfEach == 4);
-    CHECK(lightsOf(underSquares(1000), IntegratorKind::Path).areaLights == 0); // one is sampled
-    const SampledLightCounts points = lightsOf(underPoints(300), IntegratorKind::Path);
-    CHECK(points.deltaLights == 300);
-    CHECK(points.sampledDeltaLights == 256);
+    CHECK(squares.treeLights == 1000);
+    CHECK(squares.treeSamples == 16);
+    CHECK(lightsOf(underSquares(32), IntegratorKind::Whitted).treeLights == 0);
+    CHECK(lightsOf(underSquares(1000), IntegratorKind::Path).treeLights == 0); // new at each point
+
+    SceneBuilder builder = whiteFloor();
+    Light sun;
+    sun.kind = LightKind::Directional;
+    sun.diffuse = Vec3(1.0f);
+    for (int i = 0; i < 300; ++i)
+        builder.addLight(sun);
+    const SampledLightCounts suns = lightsOf(builder.build(), IntegratorKind::Path);
+    CHECK(suns.deltaLights == 300);
+    CHECK(suns.sampledDeltaLights == 256);
 }

@@ -49,28 +49,19 @@ const char* noteText(PhotonNote note)
     return "";
 }
 
-std::string sampledOf(std::size_t sampled, std::size_t all, const char* kind)
-{
-    return std::to_string(sampled) + " of " + std::to_string(all) + " " + kind + " lights";
-}
-
 std::string lightNote(const SampledLightCounts& lights)
 {
-    std::string some;
-    if (lights.sampledAreaLights < lights.areaLights)
-        some = sampledOf(lights.sampledAreaLights, lights.areaLights, "area");
+    std::string note;
+    if (lights.treeLights > 0)
+        note = "there are many lights: a point takes " + std::to_string(lights.treeSamples) +
+               " samples of " + std::to_string(lights.treeLights) +
+               " lights, chosen by what they may send there; more passes lessen the noise";
     if (lights.sampledDeltaLights < lights.deltaLights)
-        some +=
-            (some.empty() ? "" : " and ") +
-            sampledOf(lights.sampledDeltaLights, lights.deltaLights, "point, spot and directional");
-    if (!some.empty())
-        return "there are many lights: a pass samples " + some +
-               ", chosen by power and others in each pass; more passes lessen the noise";
-    if (lights.samplesOfEach < lights.wantedOfEach)
-        return "there are many lights: a pass takes " + std::to_string(lights.samplesOfEach) +
-               " samples of each of " + std::to_string(lights.areaLights) + " area lights, not " +
-               std::to_string(lights.wantedOfEach) + " as set by light-samples";
-    return "";
+        note += (note.empty() ? "" : "; ") + std::string("a pass samples ") +
+                std::to_string(lights.sampledDeltaLights) + " of " +
+                std::to_string(lights.deltaLights) +
+                " directional lights, chosen by power and others in each pass";
+    return note;
 }
 
 const char* denoiserName(DenoiseKind kind)

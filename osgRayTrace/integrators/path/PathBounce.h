@@ -105,9 +105,10 @@ void countRays(Tile& tile, const PathBlock& block, LaneMask lanes);
 void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,
                      FloatLanes& v);
 
-/// Adds the emission that the paths met by chance, weighted against light samples. The emission
-/// that photons carry is left out.
-void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, PhotonUse use);
+/// Adds the emission that the rays of this number met by chance, weighted against light samples.
+/// The emission that photons carry is left out.
+void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface, int number,
+                 PhotonUse use);
 
 /// Adds the light of rays that left the scene in the bounce of this number. The eye and mirrors see
 /// the environment or else the background. Scattered paths get the environment, weighted against
@@ -122,8 +123,8 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
 /// Adds samples of the environment if it shines. seeds are the seeds of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
 
-/// Adds one sample of the area lights, the samples of the environment and one sample of each delta
-/// light of the pass.
+/// Adds the samples of the LightTree, or else one sample of the area lights; the samples of the
+/// environment; and one sample of each delta light of the pass that is not in the tree.
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on, and removes the other lanes from block.active.

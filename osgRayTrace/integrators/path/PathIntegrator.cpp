@@ -9,14 +9,14 @@
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
 // The weights w = p_a^2 / (p_a^2 + p_b^2) are those of the power heuristic, y is sampled on one
-// area light that is chosen by power, and q is the survival probability of Russian roulette.
-// The probability q is 1 while beta is above a bound, and is beta over this bound below the bound,
-// so that beta stays at the bound. For q, beta is taken as it would be outside of all glass,
-// because beta in glass is 1/eta^2 of the beta that comes out again. A q that is capped below 1
-// would let beta, and with beta the variance, grow along paths that lose less than q takes. Sixteen
-// paths are followed together; after each bounce the tile's remaining paths move up into the lanes
-// of those that ended. The light that a path finds from its second surface on is shared with other
-// pixels, see PathReuse.cpp.
+// light that a LightTree chooses for x_k, or among a few area lights by power, and q is the
+// survival probability of Russian roulette. The probability q is 1 while beta is above a bound, and
+// is beta over this bound below the bound, so that beta stays at the bound. For q, beta is taken as
+// it would be outside of all glass, because beta in glass is 1/eta^2 of the beta that comes out
+// again. A q that is capped below 1 would let beta, and with beta the variance, grow along paths
+// that lose less than q takes. Sixteen paths are followed together; after each bounce the tile's
+// remaining paths move up into the lanes of those that ended. The light that a path finds from its
+// second surface on is shared with other pixels, see PathReuse.cpp.
 #include "osgRayTrace/integrators/path/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -130,7 +130,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, number);
     addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
     if (traits.fog) addFog(tile, block, bounce);
-    addEmission(tile, block, bounce.surface, use);
+    addEmission(tile, block, bounce.surface, number, use);
     for (const int i : lanesIn(number == 0 ? bounce.surface.hits : 0))
         tile.sums.a[block.flagsOf(i).pixel()] = 1.0f;
     if (last)
@@ -154,6 +154,8 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         sampleLights(tile, block, bounce);
     }
     if (number == 0 && tile.reuse.active) recordFirstSurfaces(tile, b, bounce);
+    if (traced.lights().tree())
+        block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
     scatter(tile, block, bounce);
 }
 
@@ -181,7 +183,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
             bounceBlock(tile, b, number, last, use);
-        compactPaths(tile.paths);
+        compactPaths(tile.paths, context.traced->lights().tree() != nullptr);
     }
     connectPaths(tile);
 }

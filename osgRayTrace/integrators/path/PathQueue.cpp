@@ -30,9 +30,15 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.depth[k] = from.depth[i];
 }
 
+void moveVertex(const PathBlock& from, int i, PathBlock& to, int k)
+{
+    setLane(to.vertices.position, k, plainOf(from.vertices.position, i));
+    setLane(to.vertices.normal, k, plainOf(from.vertices.normal, i));
+}
+
 } // namespace
 
-void compactPaths(PathQueue& paths)
+void compactPaths(PathQueue& paths, bool withVertices)
 {
     int count = 0;
     for (int b = 0; b < paths.count; ++b)
@@ -41,7 +47,11 @@ void compactPaths(PathQueue& paths)
         for (const int i : lanesIn(from.active))
         {
             if (count != b * kLanes + i)
-                moveLane(from, i, paths.blocks[count / kLanes], count % kLanes);
+            {
+                PathBlock& to = paths.blocks[count / kLanes];
+                moveLane(from, i, to, count % kLanes);
+                if (withVertices) moveVertex(from, i, to, count % kLanes);
+            }
             ++count;
         }
     }

@@ -6,6 +6,7 @@
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/integrators/path/PathFlags.h"
 #include "osgRayTrace/integrators/shared/RayCones.h"
+#include "osgRayTrace/integrators/shared/TreeLights.h"
 
 namespace osgRayTrace::engine
 {
@@ -21,6 +22,7 @@ struct PathBlock
     UintLanes flags;      ///< words of PathFlags
     ConeLanes cones;      ///< set in scenes with SceneTraits::mipmaps
     FloatLanes depth;     ///< way from the eye to the ray's start, in scenes with SceneTraits::fog
+    TreePoints vertices;  ///< points that the rays left; set in scenes with a LightTree
     LaneMask active = 0;
 
     PathFlags flagsOf(int lane) const { return PathFlags(flags[lane]); }
@@ -33,7 +35,7 @@ struct PathQueue
 };
 
 /// Moves the paths that go on into as few blocks as possible, in order, and sets the tFar of all
-/// their rays to infinity.
-void compactPaths(PathQueue& paths);
+/// their rays to infinity. The vertices are moved if they are set.
+void compactPaths(PathQueue& paths, bool withVertices);
 
 } // namespace osgRayTrace::engine

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/LightGrid.h"
 
-#include "osgRayTrace/integrators/shared/SampledLights.h"
 #include "osgRayTrace/sampling/LightPoints.h"
 
 #include <cmath>
@@ -45,12 +44,11 @@ void lightPoints(const LightGridLayout& grid, uint32_t j, uint32_t dimension,
 
 } // namespace
 
-LightGrid::LightGrid(const PassContext& context, std::size_t lights)
+LightGrid::LightGrid(const PassContext& context, int samples)
 {
-    const auto samples = static_cast<uint32_t>(samplesOfEach(context.options, lights));
     const auto side = std::lround(std::sqrt(static_cast<float>(samples)));
-    _layout = {context.options.lightSampling, samples, static_cast<uint32_t>(side),
-               context.key.index};
+    _layout = {context.options.lightSampling, static_cast<uint32_t>(samples),
+               static_cast<uint32_t>(side), context.key.index};
 }
 
 void LightGrid::draw(std::size_t light, uint32_t j, const UintLanes& seeds, FloatLanes& u,

@@ -20,9 +20,8 @@ struct LightGridLayout
 class LightGrid
 {
 public:
-    /// Sets the layout of the points. lights is the number of lights that share the samples of a
-    /// point: see samplesOfEach.
-    LightGrid(const PassContext& context, std::size_t lights);
+    /// Sets the layout of so many points: a square number if the strategy has cells.
+    LightGrid(const PassContext& context, int samples);
 
     /// Returns the number of samples that a hit takes of each light in the pass.
     uint32_t samples() const { return _layout.samples; }

@@ -47,18 +47,14 @@ SampledLights sampledLights(const std::vector<uint32_t>& lights, std::size_t mos
     return SampledLights(std::move(sampled));
 }
 
-std::size_t mostAreaLights(const RenderOptions& options)
-{
-    return kMostAreaLights * static_cast<std::size_t>(lightSampleCount(options));
-}
-
 } // namespace
 
 int samplesOfEach(const RenderOptions& options, std::size_t lights)
 {
     const int wanted = lightSampleCount(options);
-    if (lights <= kMostAreaLights) return wanted;
-    const int most = static_cast<int>(mostAreaLights(options) / lights);
+    if (lights <= kMostFullySampled) return wanted;
+    const int most =
+        static_cast<int>(kMostFullySampled * static_cast<std::size_t>(wanted) / lights);
     if (most < 1) return 1;
     const bool cells = options.lightSampling == LightSampling::UniformJitter ||
                        options.lightSampling == LightSampling::Stratified;
@@ -69,17 +65,25 @@ int samplesOfEach(const RenderOptions& options, std::size_t lights)
     return side * side;
 }
 
-SampledLights sampledAreaLights(const PassContext& context)
+bool samplesTree(const PassContext& context)
 {
     const LightTable& table = context.traced->lights();
-    return sampledLights(table.areaLights(), mostAreaLights(context.options), context.key,
-                         [&table](float u) { return table.chooseAreaLight(u); });
+    if (!table.tree()) return false;
+    return context.options.integrator != IntegratorKind::Whitted ||
+           table.areaLights().size() + table.deltaLights().size() > kMostLoopedLights;
+}
+
+SampledLights sampledAreaLights(const PassContext& context)
+{
+    if (samplesTree(context)) return SampledLights(std::vector<SampledLight>());
+    return SampledLights(context.traced->lights().areaLights());
 }
 
 SampledLights sampledDeltaLights(const PassContext& context)
 {
     const LightTable& table = context.traced->lights();
-    return sampledLights(table.deltaLights(), kMostDeltaLights, context.key,
+    return sampledLights(samplesTree(context) ? table.lightsBesideTree() : table.deltaLights(),
+                         kMostDeltaLights, context.key,
                          [&table](float u) { return table.chooseDeltaLight(u); });
 }
 
@@ -88,14 +92,13 @@ SampledLightCounts sampledLightCounts(const PassContext& context)
     const LightTable& table = context.traced->lights();
     SampledLightCounts counts;
     if (context.options.integrator == IntegratorKind::Debug) return counts;
-    counts.deltaLights = table.deltaLights().size();
+    const bool tree = samplesTree(context);
+    counts.deltaLights = tree ? table.lightsBesideTree().size() : table.deltaLights().size();
     counts.sampledDeltaLights = std::min(counts.deltaLights, kMostDeltaLights);
-    // Integrators other than Whitted choose one area light for each sample.
-    if (context.options.integrator != IntegratorKind::Whitted) return counts;
-    counts.areaLights = table.areaLights().size();
-    counts.sampledAreaLights = std::min(counts.areaLights, mostAreaLights(context.options));
-    counts.samplesOfEach = samplesOfEach(context.options, counts.areaLights);
-    counts.wantedOfEach = lightSampleCount(context.options);
+    // Integrators other than Whitted have a new choice of lights at each point of each path.
+    if (!tree || context.options.integrator != IntegratorKind::Whitted) return counts;
+    counts.treeLights = table.areaLights().size() + table.deltaLights().size() - counts.deltaLights;
+    counts.treeSamples = kTreePicks * lightSampleCount(context.options);
     return counts;
 }
 

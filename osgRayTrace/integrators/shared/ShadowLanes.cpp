@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
+#include "osgRayTrace/integrators/shared/QuadLane.h"
 #include "osgRayTrace/shading/SoftLight.h"
 
 #include <algorithm>
@@ -18,65 +19,11 @@ namespace
 /// From here on no terminator offset changes directions, and squared distances are no floats.
 constexpr float kFarLight = 1e18f;
 
-/// A parallelogram light with the values that all lanes share.
-struct Quad
-{
-    Vec3 corner, edgeU, edgeV, normal;
-    float area;
-    float offset; ///< error bound of a point on the light
-    bool twoSided;
-    Vec3 radiance;
-};
-
 Quad quadOf(const Light& light, const LightTable& table, uint32_t index)
 {
-    return {light.corner,        light.edgeU,       light.edgeV,
-            table.normal(index), table.area(index), table.pointOffset(index),
-            light.twoSided,      light.radiance};
-}
-
-/// Sets the sample of lane i. Returns all bits if the light can reach the surface.
-OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const SurfaceLanes& surface,
-                                     int i, uint32_t transmissive, PlainVec3 l, LightLanes& samples)
-{
-    const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
-    const PlainVec3 lightNormal = plainOf(q.normal);
-
-    // The signs of height and above tell the point's side of the light, and the light's side of it.
-    const PlainVec3 towards = p - l;
-    const float height = dot(towards, lightNormal);
-    const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
-    const float above = -dot(towards, n);
-    const float offset = surface.offset[i];
-    const float surfaceSide = select(above >= 0.0f, offset, -offset);
-
-    const PlainVec3 origin = p + n * surfaceSide;
-    const PlainVec3 d = l + lightNormal * lightSide - origin;
-    const float distance = std::sqrt(dot(d, d));
-    const float perDistance = 1.0f / distance;
-
-    // The shadow ray is moved off both surfaces. The geometry term is not, or the light of large
-    // surfaces would be wrong by their error bound.
-    const float inverse = 1.0f / std::sqrt(dot(towards, towards));
-    const PlainVec3 wi = -towards * inverse;
-    setLane(samples.wi, i, wi);
-
-    const float cosL = -dot(wi, lightNormal);
-    const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
-    const float weight = cosine * q.area * inverse * inverse;
-    samples.weight[i] = weight * inversePmf;
-    samples.radiance[0][i] = q.radiance.x;
-    samples.radiance[1][i] = q.radiance.y;
-    samples.radiance[2][i] = q.radiance.z;
-    setRay(samples.shadow, i, origin, d * perDistance, 0.0f, distance);
-    const uint32_t reachable = maskOf(above > 0.0f) | transmissive;
-    return maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
-}
-
-OSGRAYTRACE_INLINE PlainVec3 pointOn(const Quad& q, float u, float v)
-{
-    return {q.corner.x + u * q.edgeU.x + v * q.edgeV.x, q.corner.y + u * q.edgeU.y + v * q.edgeV.y,
-            q.corner.z + u * q.edgeU.z + v * q.edgeV.z};
+    return {plainOf(light.corner),        plainOf(light.edgeU),   plainOf(light.edgeV),
+            plainOf(table.normal(index)), table.area(index),      table.pointOffset(index),
+            maskOf(light.twoSided),       plainOf(light.radiance)};
 }
 
 OSGRAYTRACE_KERNEL
@@ -150,42 +97,45 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
         if (meshLane(context, index, pmf, receivers, i, samples)) samples.lit |= 1u << i;
 }
 
+bool deltaLane(const PassContext& context, uint32_t index, const LightReceivers& receivers, int i,
+               LightLanes& samples)
+{
+    const Light& light = (*context.lights)[index];
+    const SurfaceLanes& surface = receivers.surface;
+    const LaneMask transmissive = receivers.throughSurface | surface.terminatorLanes;
+    const Material& material = context.traced->scene().materials[surface.material[i]];
+    if (!isLightEnabled(material, light.number)) return false;
+    const Vec3 point = laneOf(trianglePoints(surface), i);
+    const SoftLightSample sample =
+        sampleSoft(light, point, isSoft(light) ? Vec2(receivers.u[i], receivers.v[i]) : Vec2(0.0f));
+    if (!(sample.attenuation > 0.0f)) return false;
+    if (!((transmissive >> i) & 1u) &&
+        glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
+        return false;
+    const RayBegin begin = leave(surface, i, sample.wi);
+    Vec3 towards = sample.wi;
+    float distance = sample.distance;
+    if (((surface.terminatorLanes >> i) & 1u) && distance < kFarLight)
+    {
+        // The terminator offset is not small: the ray must end at the light, not past it.
+        towards = point + sample.wi * distance - begin.origin;
+        distance = glm::length(towards);
+        if (!(distance > 0.0f)) return false;
+        towards /= distance;
+    }
+    setRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
+    setSample(samples, i, sample.wi, light.diffuse * (kPi * sample.attenuation), sample.weight);
+    samples.attenuation[i] = sample.attenuation;
+    return true;
+}
+
 void deltaLightLanes(const PassContext& context, uint32_t index, const LightReceivers& receivers,
                      LightLanes& samples)
 {
     OSGRAYTRACE_ASSERT(index < context.lights->size());
-    const Light& light = (*context.lights)[index];
-    const bool soft = isSoft(light);
-    const SurfaceLanes& surface = receivers.surface;
-    const LaneMask transmissive = receivers.throughSurface | surface.terminatorLanes;
     samples.lit = samples.tinted = 0;
     for (const int i : lanesIn(receivers.active))
-    {
-        const Material& material = context.traced->scene().materials[surface.material[i]];
-        if (!isLightEnabled(material, light.number)) continue;
-        const Vec3 point = laneOf(trianglePoints(surface), i);
-        const SoftLightSample sample =
-            sampleSoft(light, point, soft ? Vec2(receivers.u[i], receivers.v[i]) : Vec2(0.0f));
-        if (!(sample.attenuation > 0.0f)) continue;
-        if (!((transmissive >> i) & 1u) &&
-            glm::dot(laneOf(surface.geometricNormal, i), sample.wi) <= 0.0f)
-            continue;
-        const RayBegin begin = leave(surface, i, sample.wi);
-        Vec3 towards = sample.wi;
-        float distance = sample.distance;
-        if (((surface.terminatorLanes >> i) & 1u) && distance < kFarLight)
-        {
-            // The terminator offset is not small: the ray must end at the light, not past it.
-            towards = point + sample.wi * distance - begin.origin;
-            distance = glm::length(towards);
-            if (!(distance > 0.0f)) continue;
-            towards /= distance;
-        }
-        setRay(samples.shadow, i, begin, towards, std::max(begin.tNear, distance));
-        setSample(samples, i, sample.wi, light.diffuse * (kPi * sample.attenuation), sample.weight);
-        samples.attenuation[i] = sample.attenuation;
-        samples.lit |= 1u << i;
-    }
+        if (deltaLane(context, index, receivers, i, samples)) samples.lit |= 1u << i;
 }
 
 OSGRAYTRACE_KERNEL

@@ -29,6 +29,10 @@ void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
 void deltaLightLanes(const PassContext& context, uint32_t light, const LightReceivers& receivers,
                      LightLanes& samples);
 
+/// Sets the sample of one lane as deltaLightLanes does. Returns false if no light reaches the lane.
+bool deltaLane(const PassContext& context, uint32_t light, const LightReceivers& receivers, int i,
+               LightLanes& samples);
+
 /// Returns the lanes of samples.lit that see the light, and counts their shadow rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
 

@@ -46,9 +46,8 @@ void addDiffuse(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightLan
 }
 
 /// Adds f cos L V / pdfW of lanes with any other Bsdf.
-void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
+void addGeneral(ShadingBlock& block, const LightLanes& light, LaneMask visible, float scale)
 {
-    const LightLanes& light = block.light;
     Vec3Lanes fCos;
     FloatLanes pdfW;
     evalTowardsLight(block.rays.ray, block.surface, block.materials.normal, block.materials.bsdfs,
@@ -59,6 +58,35 @@ void addGeneral(ShadingBlock& block, LaneMask visible, float scale)
         addLane(block.radiance, i, laneOf(fCos, i) * radiance * (light.weight[i] * scale));
     }
 }
+
+} // namespace
+
+void addSampledLight(ShadingBlock& block, const LightLanes& samples, LaneMask visible, float scale)
+{
+    const LaneMaterials& m = block.materials;
+    if (visible & m.diffuse)
+        addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, scale, block.radiance);
+    if (visible & ~m.diffuse) addGeneral(block, samples, visible & ~m.diffuse, scale);
+}
+
+void addFixedFunctionLight(ShadingBlock& block, const LightLanes& samples, const Light& light,
+                           int i, float share, float weight)
+{
+    FixedFunctionPoint& point = block.materials.points[i];
+    const float attenuation = samples.attenuation[i] * share;
+    if (!((samples.tinted >> i) & 1u))
+    {
+        addLight(point, light, laneOf(samples.wi, i), attenuation, weight);
+        return;
+    }
+    Light tinted = light; // OpenGL's colours, as they come through panes
+    tinted.diffuse *= laneOf(samples.tint, i);
+    tinted.specular *= laneOf(samples.tint, i);
+    addLight(point, tinted, laneOf(samples.wi, i), attenuation, weight);
+}
+
+namespace
+{
 
 /// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of
 /// a mask.
@@ -76,14 +104,7 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
         block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts);
     }
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
-    {
-        const LaneMaterials& m = block->materials;
-        const LaneMask visible = block->light.lit;
-        if (visible & m.diffuse)
-            addDiffuse(m.normal, m.albedo, block->light, visible & m.diffuse, scale,
-                       block->radiance);
-        if (visible & ~m.diffuse) addGeneral(*block, visible & ~m.diffuse, scale);
-    }
+        addSampledLight(*block, block->light, block->light.lit, scale);
 }
 
 /// Adds direct light from the area lights of the pass, sample by sample.
@@ -125,7 +146,7 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                       });
         return;
     }
-    const LightGrid& grid = tile.environmentGrid;
+    const LightGrid& grid = tile.areaGrid;
     const std::size_t behindAreaLights = tile.areaLights.size();
     for (uint32_t j = 0; j < grid.samples(); ++j)
         addSample(tile, blocks, count, 1.0f / static_cast<float>(grid.samples()),
@@ -157,22 +178,9 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     if (light.castsShadows) countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
     for (const int i : lanesIn(reached & m.fixedFunction))
-    {
-        const float attenuation = samples.attenuation[i] * share;
-        const float weight = (visible >> i) & 1u ? samples.weight[i] : 0.0f;
-        if (!((samples.tinted >> i) & 1u))
-        {
-            addLight(m.points[i], light, laneOf(samples.wi, i), attenuation, weight);
-            continue;
-        }
-        Light tinted = light; // OpenGL's colours, as they come through panes
-        tinted.diffuse *= laneOf(samples.tint, i);
-        tinted.specular *= laneOf(samples.tint, i);
-        addLight(m.points[i], tinted, laneOf(samples.wi, i), attenuation, weight);
-    }
-    if (visible & m.diffuse)
-        addDiffuse(m.normal, m.albedo, samples, visible & m.diffuse, share, block.radiance);
-    if (visible & m.physical) addGeneral(block, visible & m.physical, share);
+        addFixedFunctionLight(block, samples, light, i, share,
+                              (visible >> i) & 1u ? samples.weight[i] : 0.0f);
+    addSampledLight(block, samples, visible & ~m.fixedFunction, share);
 }
 
 /// Adds the light of the delta lights of the pass. Lights with a size take as many samples as area
@@ -207,6 +215,8 @@ void addDirectLight(WhittedTile& tile, ShadingBlock* blocks, int count)
 {
     const LightTable& lights = tile.context.traced->lights();
     addAreaLights(tile, blocks, count);
+    for (ShadingBlock* block = blocks; tile.samplesTree && block != blocks + count; ++block)
+        addTreeLights(tile, *block);
     if (lights.shiningEnvironment()) addEnvironment(tile, blocks, count);
     if (tile.deltaLights.empty()) return;
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)

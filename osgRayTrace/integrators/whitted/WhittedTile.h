@@ -80,9 +80,10 @@ struct WhittedTile
           result(r),
           areaLights(sampledAreaLights(c)),
           deltaLights(sampledDeltaLights(c)),
-          areaGrid(c, areaLights.size()),
-          environmentGrid(c, 1),
-          softGrid(c, softLights())
+          samplesTree(engine::samplesTree(c)),
+          areaGrid(c, lightSampleCount(c.options)),
+          treeGrid(c, kTreePicks * lightSampleCount(c.options)),
+          softGrid(c, samplesOfEach(c.options, softLights()))
     {
     }
 
@@ -113,7 +114,9 @@ struct WhittedTile
     const PassContext& context;
     TileResult& result;
     SampledLights areaLights, deltaLights; ///< lights that the pass samples
-    LightGrid areaGrid, environmentGrid, softGrid;
+    bool samplesTree;                      ///< the other lights are sampled by the LightTree
+    LightGrid areaGrid;                    ///< points on an area light or in the environment
+    LightGrid treeGrid, softGrid;          ///< points on lights of the tree, and on suns
     std::vector<SecondaryRay> stack;
     ShadingBlock group[kGroup];
     LastTriangle lastTriangle; ///< last triangle that a block of camera rays met
@@ -142,6 +145,18 @@ void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes);
 /// operations, which overlaps here with the chains of other blocks, but would overlap with nothing
 /// where the points are used.
 void drawFirstPoints(const WhittedTile& tile, ShadingBlock& block);
+
+/// Adds the terms that a fixed-function lane gets from a delta light in block.light. light: the
+/// lane's; share: factor of the sample; weight: weight of a visible sample's direction.
+void addFixedFunctionLight(ShadingBlock& block, const LightLanes& samples, const Light& light,
+                           int i, float share, float weight);
+
+/// Adds f cos L V / pdfW of the visible lanes with Bsdfs of any kind, times scale.
+void addSampledLight(ShadingBlock& block, const LightLanes& samples, LaneMask visible, float scale);
+
+/// Adds samples of the lights that the LightTree chooses. kTreePicks times as many as a light gets
+/// without a tree.
+void addTreeLights(WhittedTile& tile, ShadingBlock& block);
 
 /// Adds the light of all lights to some blocks of the group. Fixed-function lanes keep this light
 /// in their points.

@@ -1,0 +1,67 @@
+// QuadLane.h - the sample of one lane on a flat light, as vector code. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/accel/SurfaceLanes.h"
+#include "osgRayTrace/integrators/shared/LightLanes.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+/// A parallelogram or triangle that shines.
+struct Quad
+{
+    PlainVec3 corner, edgeU, edgeV, normal;
+    float area;
+    float offset;      ///< error bound of a point on the light
+    uint32_t twoSided; ///< all bits or none
+    PlainVec3 radiance;
+};
+
+/// Sets the sample of lane i. Returns all bits if the light can reach the surface.
+OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const SurfaceLanes& surface,
+                                     int i, uint32_t transmissive, PlainVec3 l, LightLanes& samples)
+{
+    const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
+    const PlainVec3 lightNormal = q.normal;
+
+    // The signs of height and above tell the point's side of the light, and the light's side of it.
+    const PlainVec3 towards = p - l;
+    const float height = dot(towards, lightNormal);
+    const float lightSide = select(height >= 0.0f, q.offset, -q.offset);
+    const float above = -dot(towards, n);
+    const float offset = surface.offset[i];
+    const float surfaceSide = select(above >= 0.0f, offset, -offset);
+
+    const PlainVec3 origin = p + n * surfaceSide;
+    const PlainVec3 d = l + lightNormal * lightSide - origin;
+    const float distance = std::sqrt(dot(d, d));
+    const float perDistance = 1.0f / distance;
+
+    // The shadow ray is moved off both surfaces. The geometry term is not, or the light of large
+    // surfaces would be wrong by their error bound.
+    const float inverse = 1.0f / std::sqrt(dot(towards, towards));
+    const PlainVec3 wi = -towards * inverse;
+    setLane(samples.wi, i, wi);
+
+    const float cosL = -dot(wi, lightNormal);
+    const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
+    const float weight = cosine * q.area * inverse * inverse;
+    samples.weight[i] = weight * inversePmf;
+    samples.radiance[0][i] = q.radiance.x;
+    samples.radiance[1][i] = q.radiance.y;
+    samples.radiance[2][i] = q.radiance.z;
+    setRay(samples.shadow, i, origin, d * perDistance, 0.0f, distance);
+    const uint32_t reachable = maskOf(above > 0.0f) | transmissive;
+    return maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
+}
+
+OSGRAYTRACE_INLINE PlainVec3 pointOn(const Quad& q, float u, float v)
+{
+    return {q.corner.x + u * q.edgeU.x + v * q.edgeV.x, q.corner.y + u * q.edgeU.y + v * q.edgeV.y,
+            q.corner.z + u * q.edgeU.z + v * q.edgeV.z};
+}
+
+} // namespace osgRayTrace::engine

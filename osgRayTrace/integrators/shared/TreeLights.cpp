@@ -1,0 +1,133 @@
+// TreeLights.cpp - light samples of surface points on lights that a tree chooses. Layer:
+// integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/TreeLights.h"
+
+#include "osgRayTrace/integrators/shared/QuadLane.h"
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+OSGRAYTRACE_INLINE float sumAbs(PlainVec3 v)
+{
+    return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+}
+
+OSGRAYTRACE_INLINE Quad quadOf(const LightEmitter& e)
+{
+    const PlainVec3 corner{e.corner[0], e.corner[1], e.corner[2]};
+    const PlainVec3 u{e.edgeU[0], e.edgeU[1], e.edgeU[2]};
+    const PlainVec3 v{e.edgeV[0], e.edgeV[1], e.edgeV[2]};
+    const PlainVec3 perpendicular = cross(u, v);
+    const float inverse = 1.0f / std::sqrt(dot(perpendicular, perpendicular));
+    const uint32_t twoSided = 0u - ((e.flags / kTwoSided) & 1u);
+    return {corner,   u,
+            v,        perpendicular * inverse,
+            e.area,   kLightOffsetScale * (sumAbs(corner) + sumAbs(u) + sumAbs(v)),
+            twoSided, {e.radiance[0], e.radiance[1], e.radiance[2]}};
+}
+
+/// Sets the sample of lane i on a flat emitter. Returns all bits if its light can reach the
+/// surface.
+OSGRAYTRACE_INLINE uint32_t emitterLane(const LightEmitter& e, float inversePmf,
+                                        const LightReceivers& receivers, int i,
+                                        uint32_t transmissive, LightLanes& samples)
+{
+    const Quad q = quadOf(e);
+    const float u = receivers.u[i], v = receivers.v[i];
+    // Triangles fold the square along its diagonal.
+    const uint32_t folded = (0u - (e.flags & kTriangle)) & maskOf(u + v > 1.0f);
+    const PlainVec3 point = pointOn(q, select(folded, 1.0f - u, u), select(folded, 1.0f - v, v));
+    return quadLane(q, inversePmf, receivers.surface, i, transmissive, point, samples);
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask emitterLanes(const LightEmitter* emitters, const UintLanes& numbers, const FloatLanes& pmf,
+                      const LightReceivers& receivers, LaneMask transmissive, LightLanes& samples)
+{
+    LaneMask lit = 0;
+    OSGRAYTRACE_SIMD_OR(lit)
+    for (int i = 0; i < kLanes; ++i)
+        lit |= bitOfLane(emitterLane(emitters[numbers[i]], 1.0f / pmf[i], receivers, i,
+                                     laneBit(transmissive, i), samples),
+                         i);
+    return lit;
+}
+
+/// Sets the radiance of lane i, whose emitter is a textured triangle.
+void setTexturedRadiance(const PassContext& context, const LightEmitter& emitter, float u, float v,
+                         int i, LightLanes& samples)
+{
+    const Scene& scene = context.traced->scene();
+    const Instance& instance = scene.instances[scene.lights[emitter.light].instance];
+    const Mesh& mesh = *scene.meshes[instance.mesh];
+    const bool folded = u + v > 1.0f;
+    const float b = folded ? 1.0f - u : u, c = folded ? 1.0f - v : v;
+    MaterialPoint point;
+    if (!mesh.uvs.empty())
+    {
+        const UVec3& t = mesh.triangles[emitter.primitive];
+        point.uv = mesh.uvs[t.x] + b * (mesh.uvs[t.y] - mesh.uvs[t.x]) +
+                   c * (mesh.uvs[t.z] - mesh.uvs[t.x]);
+    }
+    const Vec3 radiance = context.traced->materials().emission(instance.material, point);
+    for (int k = 0; k < 3; ++k)
+        samples.radiance[k][i] = radiance[k];
+}
+
+} // namespace
+
+TreePoints treePoints(const SurfaceLanes& surface, const Vec3Lanes& normal, LaneMask throughSurface)
+{
+    TreePoints points{surface.position, normal};
+    for (const int i : lanesIn(throughSurface))
+        setLane(points.normal, i, Vec3(0.0f));
+    return points;
+}
+
+void treeLightLanes(const PassContext& context, const TreePoints& points, const FloatLanes& choice,
+                    float picks, const LightReceivers& receivers, TreeSamples& samples)
+{
+    const LightTree& tree = *context.traced->lights().tree();
+    tree.chooseLanes(points.position, points.normal, choice, samples.emitters, samples.pmf);
+    for (int i = 0; i < kLanes; ++i)
+        samples.pmf[i] *= picks;
+    LightLanes& lights = samples.lights;
+    const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
+    const LaneMask lit = emitterLanes(tree.emitters(), samples.emitters, samples.pmf, receivers,
+                                      transmissive, lights);
+    lights.lit = lights.tinted = samples.points = 0;
+    for (const int i : lanesIn(receivers.active))
+    {
+        const LightEmitter& emitter = tree.emitter(samples.emitters[i]);
+        if (emitter.isPoint())
+        {
+            samples.points |= 1u << i;
+            if (!deltaLane(context, emitter.light, receivers, i, lights)) continue;
+            lights.weight[i] /= samples.pmf[i];
+            lights.lit |= 1u << i;
+            continue;
+        }
+        lights.lit |= lit & (1u << i);
+        if (emitter.flags & kTextured)
+            setTexturedRadiance(context, emitter, receivers.u[i], receivers.v[i], i, lights);
+    }
+}
+
+LaneMask visibleLanes(const PassContext& context, TreeSamples& samples, TileCounts& counts)
+{
+    const LightTree& tree = *context.traced->lights().tree();
+    LaneMask unshadowed = 0;
+    for (const int i : lanesIn(samples.points & samples.lights.lit))
+    {
+        const Light& light = (*context.lights)[tree.emitter(samples.emitters[i]).light];
+        unshadowed |= static_cast<LaneMask>(!light.castsShadows) << i;
+    }
+    samples.lights.lit &= ~unshadowed;
+    return visibleLanes(context, samples.lights, counts) | unshadowed;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,214 @@
+// LightEmitters.cpp - takes lights apart into emitters, with the light that they send. Layer:
+// shading.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/shading/LightEmitters.h"
+
+#include "osgRayTrace/shading/LightTable.h"
+#include "osgRayTrace/shading/MaterialTable.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// From here on squares of distances overflow, and a point light is sampled by itself.
+constexpr float kFarAway = 1e15f;
+
+/// A triangle keeps this share of the mean that its mesh would have with a white texture: texels
+/// between the points that are looked up may shine.
+constexpr float kLeastTextureShare = 0.02f;
+
+/// The look-ups along an edge of a textured triangle.
+constexpr int kLeastLookups = 3, kMostLookups = 24;
+
+void set(float (&words)[3], Vec3 value)
+{
+    for (int k = 0; k < 3; ++k)
+        words[k] = value[k];
+}
+
+Vec3 vectorOf(const float (&words)[3])
+{
+    return Vec3(words[0], words[1], words[2]);
+}
+
+bool emitsUnevenly(const Material& material)
+{
+    return material.model == MaterialModel::FixedFunction ||
+           textureOf(material, kEmissionRole) != kInvalid;
+}
+
+/// Returns the mean of a triangle's radiance over a grid of points.
+Vec3 meanRadiance(const MaterialTable& materials, uint32_t material,
+                  const EmissiveMesh::Triangle& triangle, float texelsAcross)
+{
+    const int n = std::clamp(static_cast<int>(texelsAcross), kLeastLookups, kMostLookups);
+    Vec3 sum(0.0f);
+    int count = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; i + j < n; ++j, ++count)
+        {
+            const float u = (static_cast<float>(i) + 1.0f / 3.0f) / static_cast<float>(n);
+            const float v = (static_cast<float>(j) + 1.0f / 3.0f) / static_cast<float>(n);
+            MaterialPoint point;
+            point.uv = triangle.ua + u * triangle.uab + v * triangle.uac;
+            sum += materials.emission(material, point);
+        }
+    return sum / static_cast<float>(count);
+}
+
+/// Returns how many texels of its emission texture a triangle covers along its longest edge.
+float texelsAcross(const Scene& scene, const Material& material,
+                   const EmissiveMesh::Triangle& triangle)
+{
+    const uint32_t texture = textureOf(material, kEmissionRole);
+    if (texture >= scene.textures.size()) return static_cast<float>(kMostLookups);
+    const Texture& image = *scene.textures[texture];
+    const Vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
+    const float longest =
+        std::max(glm::length(triangle.uab * size), glm::length(triangle.uac * size));
+    return std::max(longest, glm::length((triangle.uac - triangle.uab) * size));
+}
+
+void addMesh(const Scene& scene, const LightTable& table, const MaterialTable* materials,
+             uint32_t index, std::vector<LightEmitter>& emitters)
+{
+    const Light& light = scene.lights[index];
+    const uint32_t number = scene.instances[light.instance].material;
+    const Material& material = scene.materials[number];
+    const bool textured = materials && emitsUnevenly(material);
+    for (const EmissiveMesh::Triangle& t : table.mesh(index).triangles)
+    {
+        LightEmitter emitter;
+        set(emitter.corner, t.a);
+        set(emitter.edgeU, t.ab);
+        set(emitter.edgeV, t.ac);
+        emitter.area = t.area;
+        Vec3 radiance = light.radiance;
+        if (textured)
+        {
+            radiance = meanRadiance(*materials, number, t, texelsAcross(scene, material, t));
+            radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
+        }
+        set(emitter.radiance, radiance);
+        emitter.light = index;
+        emitter.primitive = t.primitive;
+        emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
+        emitters.push_back(emitter);
+    }
+}
+
+LightEmitter parallelogram(const Light& light, uint32_t index, float area)
+{
+    LightEmitter emitter;
+    set(emitter.corner, light.corner);
+    set(emitter.edgeU, light.edgeU);
+    set(emitter.edgeV, light.edgeV);
+    set(emitter.radiance, light.radiance);
+    emitter.area = area;
+    emitter.light = index;
+    emitter.flags = light.twoSided ? kTwoSided : 0;
+    return emitter;
+}
+
+LightEmitter point(const Light& light, uint32_t index)
+{
+    LightEmitter emitter;
+    set(emitter.corner, light.position);
+    emitter.light = index;
+    emitter.flags = kPoint;
+    return emitter;
+}
+
+float sumAbs(Vec3 v)
+{
+    return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+}
+
+/// A spot with an exponent is brightest along its axis; other spots are even up to the cut-off.
+LightBounds pointBounds(const Light& light)
+{
+    constexpr float kEdge = 0.99995f; // cosine of half a degree around the cone of an even spot
+    LightBounds bounds;
+    bounds.low = light.position - Vec3(light.radius);
+    bounds.high = light.position + Vec3(light.radius);
+    // Colours that only OpenGL's equations use count, too: ambient and specular.
+    bounds.intensity =
+        kPi * (sumAbs(light.ambient) + sumAbs(light.diffuse) + sumAbs(light.specular)) / 3.0f;
+    bounds.falloff = glm::abs(
+        Vec3(light.attenuationConstant, light.attenuationLinear, light.attenuationQuadratic));
+    bounds.axis = light.direction;
+    const bool spot = light.spotCosCutoff > -1.0f;
+    const float cosCutoff = std::max(spot ? light.spotCosCutoff : -1.0f, -1.0f);
+    const bool peaked = spot && light.spotExponent > 1.0f;
+    bounds.cosCone = peaked ? 1.0f : cosCutoff;
+    bounds.cosEmission = peaked ? std::max(cosCutoff, 0.0f) : kEdge;
+    return bounds;
+}
+
+} // namespace
+
+bool isInTree(const Light& light)
+{
+    switch (light.kind)
+    {
+    case LightKind::Parallelogram:
+    case LightKind::Mesh:
+        return true;
+    case LightKind::Point:
+        return !light.eyeSpace && glm::dot(glm::abs(light.position), Vec3(1.0f)) < kFarAway;
+    case LightKind::Directional:
+    case LightKind::Environment:
+        return false;
+    }
+    return false;
+}
+
+std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& table,
+                                        const MaterialTable* materials)
+{
+    std::vector<LightEmitter> emitters;
+    std::size_t count = table.areaLights().size() + table.deltaLights().size();
+    for (const uint32_t index : table.areaLights())
+        if (scene.lights[index].kind == LightKind::Mesh)
+            count += table.mesh(index).triangles.size() - 1;
+    emitters.reserve(count);
+    for (const uint32_t index : table.areaLights())
+    {
+        const Light& light = scene.lights[index];
+        if (light.kind == LightKind::Mesh)
+            addMesh(scene, table, materials, index, emitters);
+        else
+            emitters.push_back(parallelogram(light, index, table.area(index)));
+    }
+    for (const uint32_t index : table.deltaLights())
+        if (isInTree(scene.lights[index])) emitters.push_back(point(scene.lights[index], index));
+    return emitters;
+}
+
+LightBounds boundsOf(const LightEmitter& emitter, const Scene& scene)
+{
+    if (emitter.isPoint()) return pointBounds(scene.lights[emitter.light]);
+    const Vec3 corner = vectorOf(emitter.corner), u = vectorOf(emitter.edgeU),
+               v = vectorOf(emitter.edgeV);
+    const Vec3 far = emitter.flags & kTriangle ? corner + u : corner + u + v;
+    LightBounds bounds;
+    bounds.low = glm::min(glm::min(corner, corner + u), glm::min(corner + v, far));
+    bounds.high = glm::max(glm::max(corner, corner + u), glm::max(corner + v, far));
+    const Vec3 perpendicular = glm::cross(u, v);
+    const float length = glm::length(perpendicular);
+    const bool plane = length > 1e-30f && length < 1e30f;
+    if (plane)
+        bounds.axis = perpendicular / length;
+    else
+        bounds.cosCone = -1.0f;
+    bounds.intensity = luminance(vectorOf(emitter.radiance)) * emitter.area;
+    bounds.twoSided = (emitter.flags & kTwoSided) != 0;
+    return bounds;
+}
+
+} // namespace osgRayTrace::engine

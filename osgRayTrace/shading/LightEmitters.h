@@ -1,0 +1,49 @@
+// LightEmitters.h - the parts of lights between which a LightTree chooses. Layer: shading.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/scene/Scene.h"
+#include "osgRayTrace/shading/LightBounds.h"
+
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+class LightTable;
+class MaterialTable;
+
+/// Bits of LightEmitter::flags. An emitter without the first two is a parallelogram.
+constexpr uint32_t kTriangle = 1; ///< of a mesh that emits; shines to both sides
+constexpr uint32_t kPoint = 2;    ///< point or spot light; all but its place is in Scene::lights
+constexpr uint32_t kTwoSided = 4;
+constexpr uint32_t kTextured = 8; ///< the radiance depends on the point
+
+/// A parallelogram, a triangle or a point light, in words that sixteen lanes gather.
+struct LightEmitter
+{
+    float corner[3] = {};
+    float edgeU[3] = {}, edgeV[3] = {};
+    float area = 0.0f;
+    float radiance[3] = {}; ///< of a textured triangle: the mean
+    uint32_t light = kInvalid;
+    uint32_t primitive = kInvalid; ///< triangle of the mesh
+    uint32_t flags = 0;
+
+    bool isPoint() const { return (flags & kPoint) != 0; }
+};
+static_assert(sizeof(LightEmitter) == 64, "an emitter is a cache line");
+
+/// Returns whether a LightTree chooses a light: directional lights, environments, lights of a view
+/// and those so far away that squares of distances are no floats have samples of their own.
+bool isInTree(const Light& light);
+
+/// Returns the parts of all lights with power that isInTree. materials: null if nothing is
+/// textured.
+std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& table,
+                                        const MaterialTable* materials);
+
+/// Returns bounds of the light that an emitter sends out.
+LightBounds boundsOf(const LightEmitter& emitter, const Scene& scene);
+
+} // namespace osgRayTrace::engine
