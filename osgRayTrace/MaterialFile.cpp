@@ -10,7 +10,7 @@ namespace osgRayTrace
 MaterialFile materialFileOf(osg::Node& scene)
 {
     engine::MaterialListing listing = engine::listMaterials(scene);
-    return {std::move(listing.text), listing.entries, listing.nameless};
+    return {std::move(listing.text), listing.entries, listing.nameless, listing.complete};
 }
 
 } // namespace osgRayTrace

@@ -91,6 +91,7 @@ PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::Cop
       _specularColor(other._specularColor),
       _clearcoat(other._clearcoat),
       _clearcoatRoughness(other._clearcoatRoughness),
+      _clearcoatNormalScale(other._clearcoatNormalScale),
       _sheenColor(other._sheenColor),
       _sheenRoughness(other._sheenRoughness),
       _anisotropy(other._anisotropy),
@@ -119,10 +120,11 @@ int PhysicalMaterial::compare(const osg::StateAttribute& other) const
         return std::tie(m._baseColor, m._metallic, m._roughness, m._transmission, m._ior,
                         m._emission, m._alpha, m._vertexColors, m._normalScale, m._thinWalled,
                         m._attenuationColor, m._attenuationDistance, m._specular, m._specularColor,
-                        m._clearcoat, m._clearcoatRoughness, m._sheenColor, m._sheenRoughness,
-                        m._anisotropy, m._anisotropyRotation, m._diffuseTransmission,
-                        m._diffuseTransmissionColor, m._iridescence, m._iridescenceIor,
-                        m._iridescenceThicknessMinimum, m._iridescenceThicknessMaximum);
+                        m._clearcoat, m._clearcoatRoughness, m._clearcoatNormalScale, m._sheenColor,
+                        m._sheenRoughness, m._anisotropy, m._anisotropyRotation,
+                        m._diffuseTransmission, m._diffuseTransmissionColor, m._iridescence,
+                        m._iridescenceIor, m._iridescenceThicknessMinimum,
+                        m._iridescenceThicknessMaximum);
     };
     if (values(*this) < values(rhs)) return -1;
     if (values(rhs) < values(*this)) return 1;
@@ -204,6 +206,11 @@ void PhysicalMaterial::setClearcoat(float value)
 void PhysicalMaterial::setClearcoatRoughness(float value)
 {
     assign("clearcoat roughness", _clearcoatRoughness, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setClearcoatNormalScale(float value)
+{
+    assign("clearcoat normal scale", _clearcoatNormalScale, value, -16.0f, 16.0f);
 }
 
 void PhysicalMaterial::setSheenColor(const osg::Vec3& value)

@@ -29,6 +29,10 @@ void writeMaterials(const Options& options)
         std::cerr << "osgraytrace: " << file.nameless
                   << " geometries are in no entry: neither material nor texture nor a node of "
                      "theirs alone has a name\n";
+    if (!file.complete)
+        std::cerr
+            << "osgraytrace: the models are too large or too deep; materials of some parts are "
+               "left out\n";
 }
 
 int runCommandLine(int argc, char** argv)

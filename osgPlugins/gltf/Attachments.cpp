@@ -4,6 +4,7 @@
 
 #include <osg/Light>
 #include <osg/Math>
+#include <osg/ValueObject>
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,17 @@ void setSpot(const JsonPlace& light, osg::Light& target)
     target.setSpotExponent(spotExponent(inner, outer));
 }
 
+/// Sets the range that rays honour. OpenGL's 1 / (c + l d + q d^2) ends nowhere, and any that is
+/// darker at the range is darker near the light as well: it stays the square of the distance.
+void setRange(const JsonPlace& place, osg::Light& target, Document& document)
+{
+    const float range = place.numberOr("range", 0.0f);
+    if (!place.find("range")) return;
+    if (!(range > 0.0f)) place.at("range").refuse("is not above 0");
+    target.setUserValue("osgRayTrace.range", range);
+    document.note("lights have a range; OpenGL's shine beyond it, traced ones do not");
+}
+
 } // namespace
 
 osg::ref_ptr<osg::Camera> readCamera(const Document& document, const JsonPlace& node)
@@ -105,12 +117,12 @@ osg::ref_ptr<osg::LightSource> readLight(Document& document, const JsonPlace& us
         light.setPosition(osg::Vec4(0.0f, 0.0f, 1.0f, 0.0f));
         return source;
     }
-    if (place.find("range")) document.note("not read: ranges of lights, which shine beyond them");
     light.setPosition(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
     light.setDirection(osg::Vec3(0.0f, 0.0f, -1.0f));
     light.setConstantAttenuation(0.0f);
     light.setQuadraticAttenuation(1.0f);
     if (type == "spot") setSpot(place, light);
+    setRange(place, light, document);
     return source;
 }
 

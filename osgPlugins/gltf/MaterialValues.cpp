@@ -72,8 +72,7 @@ void setTransmission(const JsonPlace& material, TextureReader& textures, Materia
 }
 
 /// Reads the extensions that lie over the base.
-void setLayers(const JsonPlace& material, TextureReader& textures, Document& document,
-               MaterialValues& values)
+void setLayers(const JsonPlace& material, TextureReader& textures, MaterialValues& values)
 {
     if (const auto specular = material.extension("KHR_materials_specular"))
     {
@@ -89,8 +88,10 @@ void setLayers(const JsonPlace& material, TextureReader& textures, Document& doc
         values.clearcoatTexture = textures.read(*coat, "clearcoatTexture");
         values.clearcoatRoughness = coat->numberOr("clearcoatRoughnessFactor", 0.0f);
         values.clearcoatRoughnessTexture = textures.read(*coat, "clearcoatRoughnessTexture");
-        if (coat->find("clearcoatNormalTexture"))
-            document.note(coat->path() + ".clearcoatNormalTexture: is not read");
+        values.clearcoatNormalTexture = textures.read(*coat, "clearcoatNormalTexture");
+        if (values.clearcoatNormalTexture)
+            values.clearcoatNormalScale =
+                coat->at("clearcoatNormalTexture").numberOr("scale", 1.0f);
     }
     if (const auto sheen = material.extension("KHR_materials_sheen"))
     {
@@ -167,7 +168,7 @@ MaterialValues materialValues(const JsonPlace& material, TextureReader& textures
     if (const auto ior = material.extension("KHR_materials_ior"))
         values.ior = ior->numberOr("ior", 1.5f);
     setTransmission(material, textures, values);
-    setLayers(material, textures, document, values);
+    setLayers(material, textures, values);
     setLobes(material, textures, values);
     return values;
 }

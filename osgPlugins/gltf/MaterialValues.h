@@ -46,7 +46,8 @@ struct MaterialValues
     osg::Vec3 specularColor{1.0f, 1.0f, 1.0f};
     std::optional<TextureUse> specularTexture, specularColorTexture;
     float clearcoat = 0.0f, clearcoatRoughness = 0.0f;
-    std::optional<TextureUse> clearcoatTexture, clearcoatRoughnessTexture;
+    std::optional<TextureUse> clearcoatTexture, clearcoatRoughnessTexture, clearcoatNormalTexture;
+    float clearcoatNormalScale = 1.0f;
     osg::Vec3 sheenColor;
     float sheenRoughness = 0.0f;
     std::optional<TextureUse> sheenColorTexture, sheenRoughnessTexture;

@@ -59,6 +59,7 @@ void setTextures(const MaterialValues& values, PhysicalMaterial& material, Docum
     set(values.specularColorTexture, Material::SPECULAR_COLOR_TEXTURE);
     set(values.clearcoatTexture, Material::CLEARCOAT_TEXTURE);
     set(values.clearcoatRoughnessTexture, Material::CLEARCOAT_ROUGHNESS_TEXTURE);
+    set(values.clearcoatNormalTexture, Material::CLEARCOAT_NORMAL_TEXTURE);
     set(values.sheenColorTexture, Material::SHEEN_COLOR_TEXTURE);
     set(values.sheenRoughnessTexture, Material::SHEEN_ROUGHNESS_TEXTURE);
     set(values.anisotropyTexture, Material::ANISOTROPY_TEXTURE);
@@ -93,6 +94,7 @@ osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bo
     material->setSpecularColor(notNegative(values.specularColor));
     material->setClearcoat(unit(values.clearcoat));
     material->setClearcoatRoughness(unit(values.clearcoatRoughness));
+    material->setClearcoatNormalScale(std::clamp(values.clearcoatNormalScale, -16.0f, 16.0f));
     material->setSheenColor(unit(values.sheenColor));
     material->setSheenRoughness(unit(values.sheenRoughness));
     material->setAnisotropy(unit(values.anisotropy));

@@ -41,7 +41,8 @@ constexpr const char* kTextures[PhysicalMaterial::NUMBER_OF_TEXTURES] = {
     "diffuseTransmissionTexture",
     "diffuseTransmissionColorTexture",
     "iridescenceTexture",
-    "iridescenceThicknessTexture"};
+    "iridescenceThicknessTexture",
+    "clearcoatNormalTexture"};
 
 PhysicalMaterial::TextureUse useOf(int number)
 {
@@ -142,6 +143,7 @@ constexpr Parameter kParameters[] = {
     parameter<&M::getSpecularColor, &M::setSpecularColor>("specularColor"),
     parameter<&M::getClearcoat, &M::setClearcoat>("clearcoat"),
     parameter<&M::getClearcoatRoughness, &M::setClearcoatRoughness>("clearcoatRoughness"),
+    parameter<&M::getClearcoatNormalScale, &M::setClearcoatNormalScale>("clearcoatNormalScale"),
     parameter<&M::getSheenColor, &M::setSheenColor>("sheenColor"),
     parameter<&M::getSheenRoughness, &M::setSheenRoughness>("sheenRoughness"),
     parameter<&M::getAnisotropy, &M::setAnisotropy>("anisotropy"),

@@ -26,6 +26,7 @@ void mergeHits(const RayHitBlock& later, const SurfaceLanes& laterSurface, LaneM
         setLane(surface.position, i, plainOf(laterSurface.position, i));
         setLane(surface.geometricNormal, i, plainOf(laterSurface.geometricNormal, i));
         setLane(surface.shadingNormal, i, plainOf(laterSurface.shadingNormal, i));
+        setLane(surface.unmappedNormal, i, plainOf(laterSurface.unmappedNormal, i));
         setLane(surface.onTriangle, i, plainOf(points, i));
         surface.offset[i] = laterSurface.offset[i];
         surface.minCosine[i] = laterSurface.minCosine[i];

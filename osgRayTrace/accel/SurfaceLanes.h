@@ -23,6 +23,7 @@ struct SurfaceLanes
     LaneMask front = 0;           ///< lanes whose ray meets the mesh's counter-clockwise side
     LaneMask terminatorLanes = 0; ///< hits whose position is above their triangle: see RayStart
     Vec3Lanes onTriangle;         ///< point without offset; unset without terminatorLanes
+    Vec3Lanes unmappedNormal;     ///< shadingNormal before normal maps; see applyNormalMaps
 };
 
 /// Returns the points on the triangles, which are without terminator offsets.

@@ -20,20 +20,21 @@ struct SurfaceAxes
 
 struct TrianglePoint
 {
-    uint32_t primitive;
+    uint32_t instance, primitive;
     float u, v;
 };
 
 /// Returns the axes at a point of a mesh: its tangents, or the directions of its texture
 /// coordinates, as applyNormalMaps says. second: those of unit 1. Nothing if the mesh has neither,
-/// or if the triangle has no area in the texture.
-std::optional<SurfaceAxes> surfaceAxes(const SurfaceRecord& record, const TrianglePoint& point,
+/// or if there is no area in the texture.
+std::optional<SurfaceAxes> surfaceAxes(const TracedScene& traced, const TrianglePoint& point,
                                        bool second, Vec3 normal);
 
-/// Turns the tangent of an anisotropic surface from the axes of texture coordinates to those of
-/// frameOf(normal), in which the Bsdf is evaluated; normal: as facingNormalLanes sets it. Without
-/// axes the surface becomes isotropic.
-void alignTangent(const TracedScene& traced, const RayHitBlock& rays, const SurfaceLanes& surface,
-                  int i, Vec3 normal, Bsdf& bsdf);
+/// Turns what depends on the axes of the mesh, see Bsdf::needsAxes, to those of frameOf(normal), in
+/// which the Bsdf is evaluated; normal: as facingNormalLanes sets it. That is the tangent of an
+/// anisotropic surface, which becomes isotropic if there are no axes, and the normal of a clear
+/// coat, with the mean that depends on it.
+void alignLayers(const TracedScene& traced, const RayHitBlock& rays, const SurfaceLanes& surface,
+                 int i, Vec3 normal, Bsdf& bsdf);
 
 } // namespace osgRayTrace::engine

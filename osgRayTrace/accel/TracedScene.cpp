@@ -6,7 +6,9 @@
 #include "osgRayTrace/accel/HitFilter.h"
 #include "osgRayTrace/accel/InstancePlaces.h"
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/MaterialPart.h"
 #include "osgRayTrace/accel/SurfaceTable.h"
+#include "osgRayTrace/accel/TangentTable.h"
 #include "osgRayTrace/base/Parallel.h"
 
 #include <algorithm>
@@ -29,25 +31,6 @@ bool sameParts(const std::vector<Part>& now, const std::vector<Part>& before, St
            std::all_of(now.begin(), now.end(),
                        [stamp](const Part& part) { return part.changed <= stamp; });
 }
-
-/// The material table with a copy of the parts of the scene that the table points to. It keeps no
-/// other part of the scene alive.
-struct MaterialPart
-{
-    explicit MaterialPart(const Scene& scene) : copy{partOf(scene)}, table(copy) {}
-    static Scene partOf(const Scene& scene)
-    {
-        Scene part;
-        part.materials = scene.materials;
-        part.textures = scene.textures;
-        part.displayReferred = scene.displayReferred;
-        part.unit = scene.unit;
-        return part;
-    }
-
-    Scene copy;
-    MaterialTable table;
-};
 
 /// Returns true if a static BVH of the members `has` serves for the members `wanted`, too. A member
 /// that calls the filter without need does no harm.
@@ -75,6 +58,7 @@ struct TracedScene::Implementation
     std::vector<float> reaches;                  ///< by instance: reachOf() if placed, else 0
     std::unique_ptr<Intersector> intersector;
     SurfaceTable surfaces;
+    TangentTable tangents;
     std::shared_ptr<const MaterialPart> materials;
     std::unique_ptr<LightTable> lights;
     SceneTraits traits;
@@ -335,6 +319,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     BuildCounts counts;
     built.compareInstances(old);
     built.makeTables(old);
+    built.tangents = TangentTable(*built.scene, old ? &old->tangents : nullptr, *workers);
     built.findFiltered();
     built.findAttached();
     if (!built.takeStructures(old))
@@ -387,6 +372,10 @@ const MaterialTable& TracedScene::materials() const
 const LightTable& TracedScene::lights() const
 {
     return *_implementation->lights;
+}
+const VertexTangents* TracedScene::vertexTangents(uint32_t instance, bool second) const
+{
+    return _implementation->tangents.find(_implementation->scene->instances[instance].mesh, second);
 }
 const BuildStatistics& TracedScene::statistics() const
 {

@@ -102,10 +102,10 @@ void ChunkTracer::scatterOne(const PhotonPathBlock& block, const SurfaceLanes& s
     const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
     const Bsdf* bsdf = _bsdfs[i];
     Bsdf aligned;
-    if (bsdf->isAnisotropic())
+    if (bsdf->needsAxes())
     {
         aligned = *bsdf;
-        alignTangent(_inputs.traced, _rays, surface, i, normal, aligned);
+        alignLayers(_inputs.traced, _rays, surface, i, normal, aligned);
         bsdf = &aligned;
     }
     Vec3 tangent, bitangent;

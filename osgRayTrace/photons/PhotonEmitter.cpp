@@ -175,7 +175,9 @@ float PhotonEmitter::falloff(uint32_t index, float distance) const
     if (light.kind != LightKind::Point) return 1.0f;
     const float denominator = light.attenuationConstant + light.attenuationLinear * distance +
                               light.attenuationQuadratic * distance * distance;
-    return denominator > 0.0f ? distance * distance / denominator : 0.0f;
+    if (!(denominator > 0.0f)) return 0.0f;
+    const float falloff = distance * distance / denominator;
+    return light.range > 0.0f ? falloff * rangeTerm(light, distance) : falloff;
 }
 
 std::size_t PhotonEmitter::guideBins() const

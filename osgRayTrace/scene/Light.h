@@ -47,6 +47,8 @@ struct Light
     float attenuationConstant = 1.0f;
     float attenuationLinear = 0.0f;    ///< [1/length], engine units, in eye space as well
     float attenuationQuadratic = 0.0f; ///< [1/length^2], engine units
+    float range =
+        0.0f; ///< Point: distance at which it ends [engine units], eye space as well; 0: none
     float spotExponent = 0.0f;
     float spotCosCutoff = -1.0f; ///< cosine of the cut-off angle; -1: no spot
 
@@ -69,6 +71,15 @@ struct Light
 
     Stamp changed = 0;
 };
+
+/// Returns the factor by which the light of a point light fades out towards its range, as glTF
+/// recommends it [glTF20, KHR_lights_punctual].
+inline float rangeTerm(const Light& light, float distance)
+{
+    if (!(light.range > 0.0f)) return 1.0f;
+    const float ratio = distance / light.range, ratio2 = ratio * ratio;
+    return ratio2 < 1.0f ? 1.0f - ratio2 * ratio2 : 0.0f;
+}
 
 inline bool isSoft(const Light& light)
 {

@@ -107,6 +107,7 @@ enum TextureRole : uint32_t
     kDiffuseTransmissionColorRole, ///< multiplies diffuseTransmissionColor
     kIridescenceRole,              ///< iridescence in R; linear
     kIridescenceThicknessRole,     ///< from the least to the largest thickness in G; linear
+    kClearcoatNormalRole,          ///< as kNormalRole, of the clear coat
     kTextureRoles,
 };
 
@@ -128,6 +129,7 @@ struct MaterialDetail
     Vec3 specularColor{1.0f};
     float clearcoat = 0.0f; ///< KHR_materials_clearcoat
     float clearcoatRoughness = 0.0f;
+    float clearcoatNormalScale = 1.0f;
     Vec3 sheenColor{0.0f}; ///< KHR_materials_sheen
     float sheenRoughness = 0.0f;
     float anisotropy = 0.0f;          ///< KHR_materials_anisotropy
@@ -235,12 +237,18 @@ inline uint32_t textureOf(const Material& m, TextureRole role)
     }
 }
 
+/// Returns whether the textures of a role are normal maps.
+inline bool isNormalRole(uint32_t role)
+{
+    return role == kNormalRole || role == kClearcoatNormalRole;
+}
+
 /// Returns whether some texture of the material decides on colours or lobes.
 inline bool isTextured(const Material& m)
 {
     if (m.second.texture != kInvalid) return true;
     for (uint32_t role = 0; role < kTextureRoles; ++role)
-        if (role != kNormalRole && textureOf(m, static_cast<TextureRole>(role)) != kInvalid)
+        if (!isNormalRole(role) && textureOf(m, static_cast<TextureRole>(role)) != kInvalid)
             return true;
     return false;
 }
@@ -249,6 +257,17 @@ inline bool isTextured(const Material& m)
 inline bool hasNormalMap(const Material& m)
 {
     return m.detail && m.detail->textures[kNormalRole] != kInvalid && m.detail->normalScale != 0.0f;
+}
+
+/// Returns whether the clear coat has other normals than the surface below it: those of its own
+/// map, or those of the mesh over a base with a normal map. The coat of a thin wall has the wall's.
+inline bool hasCoatNormals(const Material& m)
+{
+    if (!m.detail || !(m.detail->clearcoat > 0.0f)) return false;
+    if (m.detail->thinWalled && m.transmission > 0.0f) return false;
+    const bool own = m.detail->textures[kClearcoatNormalRole] != kInvalid &&
+                     m.detail->clearcoatNormalScale != 0.0f;
+    return own || hasNormalMap(m);
 }
 
 /// Returns whether the osg::Light of a number is enabled on the surface.

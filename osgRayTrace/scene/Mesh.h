@@ -27,7 +27,7 @@ struct Mesh
     SharedArray<float> rs, rs1;   ///< third coordinates of units 0 and 1; empty: 0
     SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
     /// Directions in which s grows, with the sign of the bitangent w cross(normal, tangent), of any
-    /// length, one a position; empty: they are made of uvs where a normal map needs them.
+    /// length, one a position; empty: VertexTangents.h makes them where materials need them.
     SharedArray<Vec4> tangents;
     /// True if the positions have changed before and the triangles have not: the triangles are then
     /// the array that they were. The BVH of such a mesh is built so that it can be refitted.

@@ -30,7 +30,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
         reflects |= detail->iridescence > 0.0f;
         transmits |= detail->diffuseTransmission > 0.0f;
         traits.vertexColors |= detail->vertexColors;
-        traits.normalMaps |= hasNormalMap(material);
+        traits.normalMaps |= hasNormalMap(material) || hasCoatNormals(material);
         traits.panes |= detail->thinWalled && material.transmission > 0.0f;
         traits.attenuation |= detail->absorbs();
         traits.specular |=
@@ -50,7 +50,7 @@ bool isMipmapped(const Material& material, const Scene& scene)
     { return texture < scene.textures.size() && !scene.textures[texture]->mips.empty(); };
     bool mipmapped = hasMips(material.second.texture);
     for (uint32_t role = 0; role < kTextureRoles; ++role)
-        mipmapped |= role != kNormalRole && hasMips(textureOf(material, TextureRole(role)));
+        mipmapped |= !isNormalRole(role) && hasMips(textureOf(material, TextureRole(role)));
     return mipmapped;
 }
 

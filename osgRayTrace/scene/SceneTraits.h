@@ -20,7 +20,7 @@ struct SceneTraits
     bool physical = false;      ///< some material is Physical and more than a lamp
     bool specular = false;      ///< mirror-like reflection somewhere
     bool transmission = false;
-    bool normalMaps = false;  ///< some texture decides on shading normals
+    bool normalMaps = false;  ///< some texture decides on the normals of a surface or its coat
     bool panes = false;       ///< some surface lets light pass straight: see MaterialTable::pane
     bool attenuation = false; ///< light is absorbed within some body
     bool deltaLights = false; ///< directional or point lights
@@ -29,7 +29,7 @@ struct SceneTraits
     size_t triangles = 0;     ///< counted once for each instance
 };
 
-/// Returns whether some texture of the material but the normal map has mips.
+/// Returns whether some texture of the material but normal maps has mips.
 bool isMipmapped(const Material& material, const Scene& scene);
 
 /// Returns the traits of a scene. alike: traits of a scene with the same instances of the same

@@ -54,11 +54,13 @@ struct Bsdf
     bool layered = false;         ///< true: the surface has some of the members below
     bool thin = false;            ///< true: a wall that light passes without being bent
     bool inside = false;          ///< true: wo is within the body; the layers are on the other side
+    bool coatTilted = false;      ///< true: the clear coat has a normal of its own
     Vec3 normalReflectance{0.0f}; ///< of the interface, at normal incidence; layered only
     float specular = 1.0f;        ///< factor of the reflectance of the interface
     float clearcoat = 0.0f, clearcoatAlpha = 0.0f;
     const CoatAlbedoRow* clearcoatRows = nullptr; ///< of a rough clear coat; null: it is smooth
     float clearcoatFraction = 0.0f;
+    Vec3 coatNormal{0.0f, 0.0f, 1.0f}; ///< of the clear coat, local, on wo's side: see alignLayers
     Vec3 sheen{0.0f};
     float sheenAlpha = 0.0f;
     float alphaTangent = 0.0f;      ///< GGX width along the tangent, alpha across; 0: isotropic
@@ -82,6 +84,8 @@ struct Bsdf
         return (transmits() && !isSmooth()) || diffuseTransmission != Vec3(0.0f);
     }
     bool isAnisotropic() const { return alphaTangent > 0.0f; }
+    /// Returns whether axes of the mesh decide on some layer: see alignLayers.
+    bool needsAxes() const { return isAnisotropic() || coatTilted; }
     bool isDiffuse() const { return !reflects() && !transmits() && !layered; }
     bool isSmooth() const { return alpha < kSmoothAlpha; }
     /// Returns whether light samples and photons find nothing here: mirrors and clear glass.
@@ -106,9 +110,11 @@ struct BsdfValue
 /// Holds the mirror-like lobes of a smooth surface, for integrators that follow all of them.
 struct SpecularLobes
 {
-    Vec3 reflection{0.0f}; ///< weight of the mirror direction
-    Vec3 refraction{0.0f}; ///< weight of the refracted direction; zero on total reflection
-    Vec3 refracted{0.0f};  ///< refracted direction, local
+    Vec3 reflection{0.0f};   ///< weight of the mirror direction
+    Vec3 coat{0.0f};         ///< weight of what a clear coat with a normal of its own mirrors
+    Vec3 coatMirrored{0.0f}; ///< direction of that, local
+    Vec3 refraction{0.0f};   ///< weight of the refracted direction; zero on total reflection
+    Vec3 refracted{0.0f};    ///< refracted direction, local
 };
 
 } // namespace osgRayTrace::engine

@@ -36,6 +36,13 @@ double albedoOf(double cosine, double azimuth, double along, double across, floa
     const double lambdaO = lambda(wo);
     const Vec3d stretched = glm::normalize(Vec3d(along * wo.x, across * wo.y, cosine));
     const double span = azimuth == 0.0 ? M_PI : 2.0 * M_PI;
+    std::array<double, 32> cosines{}, sines{};
+    for (int i = 0; i < turns; ++i)
+    {
+        const double phi = span * (i + 0.5) / turns;
+        cosines[static_cast<std::size_t>(i)] = std::cos(phi);
+        sines[static_cast<std::size_t>(i)] = std::sin(phi);
+    }
     double sum = 0.0;
     for (int j = 0; j < heights; ++j)
     {
@@ -45,8 +52,8 @@ double albedoOf(double cosine, double azimuth, double along, double across, floa
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
         for (int i = 0; i < turns; ++i)
         {
-            const double phi = span * (i + 0.5) / turns;
-            const Vec3d cap = Vec3d(radius * std::cos(phi), radius * std::sin(phi), z) + stretched;
+            const auto turn = static_cast<std::size_t>(i);
+            const Vec3d cap = Vec3d(radius * cosines[turn], radius * sines[turn], z) + stretched;
             const Vec3d h = glm::normalize(Vec3d(along * cap.x, across * cap.y, cap.z));
             const double cosH = wo.x * h.x + wo.y * h.y + cosine * h.z;
             Vec3d wi = 2.0 * cosH * h - wo;

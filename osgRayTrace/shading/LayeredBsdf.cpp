@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LayeredBsdf.h"
 
+#include "osgRayTrace/shading/ClearCoat.h"
+#include "osgRayTrace/shading/Facet.h"
 #include "osgRayTrace/shading/LayeredTerms.h"
 
 #include <algorithm>
@@ -17,14 +19,6 @@ namespace
 GgxWidths widthsOf(const Bsdf& b)
 {
     return {b.isAnisotropic() ? b.alphaTangent : b.alpha, b.alpha};
-}
-
-/// Returns a direction in the frame of the facets, whose x axis is the tangent.
-Vec3 toFacets(const Bsdf& b, Vec3 w)
-{
-    if (!b.isAnisotropic()) return w;
-    const Vec2 t = b.tangent;
-    return {w.x * t.x + w.y * t.y, w.y * t.x - w.x * t.y, w.z};
 }
 
 Vec3 fromFacets(const Bsdf& b, Vec3 w)
@@ -43,9 +37,9 @@ bool transmitsSmoothly(const Bsdf& b, Vec3 wo)
     return !b.thin && std::fabs(b.eta - 1.0f) * widest < kSmoothBend * wo.z * wo.z;
 }
 
-float reflectedLayers(const Bsdf& b, float cosO, float cosI)
+float reflectedLayers(const Bsdf& b, Vec3 wo, Vec3 wi)
 {
-    return b.inside ? 1.0f : std::min(belowLayers(b, cosO), belowLayers(b, cosI));
+    return b.inside ? 1.0f : std::min(belowLayers(b, wo), belowLayers(b, wi));
 }
 
 float refractionScale(const Bsdf& b, Transport transport)
@@ -67,9 +61,10 @@ LobePmf lobePmf(const Bsdf& b, Vec3 wo)
 {
     LobePmf pmf;
     if (hasSheen(b)) pmf.sheen = luminance(b.sheen) * sheenAlbedo(b.sheenAlpha, wo.z);
-    if (hasClearcoat(b))
-        pmf.clearcoat = b.clearcoat * clearcoatAlbedo(b, wo.z) * belowSheen(b, wo.z);
-    const float below = b.inside ? 1.0f : belowLayers(b, wo.z);
+    const float cosCoat = hasClearcoat(b) ? coatCosine(b, wo) : 0.0f;
+    if (cosCoat > 0.0f)
+        pmf.clearcoat = b.clearcoat * clearcoatAlbedo(b, cosCoat) * belowSheen(b, wo.z);
+    const float below = b.inside ? 1.0f : belowLayers(b, wo);
     const Vec3 fresnel = interfaceFresnel(b, wo.z);
     const float toBase = belowInterface(b, wo.z);
     pmf.base = luminance(b.diffuse) * toBase * below;
@@ -97,50 +92,22 @@ float reflectedShare(const Bsdf& b, float cosH)
     return passed > 0.0f ? reflected / (reflected + passed) : 1.0f;
 }
 
-/// Holds D and the density of a reflection at microfacets.
-struct Facet
-{
-    float cosH = 0.0f;
-    float value = 0.0f; ///< D G2 / (4 wo.z)
-    float pdfW = 0.0f;
-};
-
-template <class Width> Facet facetOf(Vec3 wo, Vec3 wi, Width alpha)
-{
-    Facet facet;
-    const Vec3 sum = wo + wi;
-    const float length2 = glm::dot(sum, sum);
-    if (length2 < 1e-14f) return facet;
-    const float length = std::sqrt(length2);
-    facet.cosH = 0.5f * length;
-    const float d = evalGgx(sum / length, alpha) / (4.0f * wo.z);
-    facet.value = d * ggxG2(wo, wi, alpha);
-    facet.pdfW = d * ggxG1(wo, alpha);
-    return facet;
-}
-
-void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
+void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transport transport,
+                 BsdfValue& value)
 {
     const float uniform = squareToCosineHemispherePdf(wi.z);
     if (b.diffuse != Vec3(0.0f))
         value.fCos +=
-            b.diffuse * (kInvPi * wi.z * aboveBase(b, wi.z) * aboveBase(b, wo.z) / b.baseAverage);
+            b.diffuse * (kInvPi * wi.z * aboveBase(b, wi) * aboveBase(b, wo) / b.baseAverage);
     value.pdfW += (pmf.base + pmf.sheen) * uniform;
     if (hasSheen(b)) value.fCos += b.sheen * (evalSheen(b.sheenAlpha, wo, wi) * wi.z);
     if (hasClearcoat(b) && !isClearcoatSmooth(b))
-    {
-        const Facet facet = facetOf(wo, wi, b.clearcoatAlpha);
-        const float below = std::min(belowSheen(b, wo.z), belowSheen(b, wi.z));
-        value.fCos += Vec3(b.clearcoat * fresnelDielectric(facet.cosH, kClearcoatIndex) *
-                           facet.value * below);
-        value.pdfW += pmf.clearcoat * facet.pdfW;
-    }
+        addClearcoat(b, wo, wi, pmf.clearcoat, transport, value);
     if (b.reflects() && !b.isSmooth())
     {
         const Facet facet = facetOf(wo, wi, widthsOf(b));
         const float share = reflectedShare(b, transmitsSmoothly(b, wo) ? wo.z : facet.cosH);
-        value.fCos +=
-            reflectionFresnel(b, facet.cosH) * (facet.value * reflectedLayers(b, wo.z, wi.z));
+        value.fCos += reflectionFresnel(b, facet.cosH) * (facet.value * reflectedLayers(b, wo, wi));
         value.pdfW += pmf.interface * share * facet.pdfW;
     }
 }
@@ -149,7 +116,7 @@ void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue&
 void addDiffused(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& value)
 {
     value.fCos += b.diffuseTransmission *
-                  (kInvPi * -wi.z * aboveBase(b, -wi.z) * aboveBase(b, wo.z) / b.baseAverage);
+                  (kInvPi * -wi.z * aboveBase(b, wi) * aboveBase(b, wo) / b.baseAverage);
     value.pdfW += pmf.through * squareToCosineHemispherePdf(-wi.z);
 }
 
@@ -158,7 +125,7 @@ void addThrough(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, BsdfValue& 
 {
     const Facet facet = facetOf(wo, Vec3(wi.x, wi.y, -wi.z), widthsOf(b));
     const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, facet.cosH));
-    value.fCos += passed * (facet.value * passedLayers(b, wo.z, -wi.z));
+    value.fCos += passed * (facet.value * passedLayers(b, wo, wi));
     value.pdfW += pmf.interface * (1.0f - reflectedShare(b, facet.cosH)) * facet.pdfW;
 }
 
@@ -179,24 +146,19 @@ void addRefraction(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transpor
     const float g1 = ggxG1(wo, alpha);
     const Vec3 passed = b.transmission * (Vec3(1.0f) - interfaceFresnel(b, cosO));
     value.fCos += passed * (d * g1 * ggxG1(-wi, alpha) * jacobian * refractionScale(b, transport) *
-                            passedLayers(b, wo.z, -wi.z));
+                            passedLayers(b, wo, wi));
     value.pdfW += pmf.interface * (1.0f - reflectedShare(b, cosO)) * g1 * d * jacobian;
 }
 
 Vec3 passedShare(const Bsdf& b, Vec3 wo, Vec3 wi, Transport transport)
 {
     return b.transmission * (Vec3(1.0f) - interfaceFresnel(b, wo.z)) *
-           (refractionScale(b, transport) * passedLayers(b, wo.z, -wi.z));
+           (refractionScale(b, transport) * passedLayers(b, wo, wi));
 }
 
 Vec3 mirroredShare(const Bsdf& b, Vec3 wo)
 {
-    return reflectionFresnel(b, wo.z) * reflectedLayers(b, wo.z, wo.z);
-}
-
-Vec3 clearcoatShare(const Bsdf& b, Vec3 wo)
-{
-    return Vec3(b.clearcoat * fresnelDielectric(wo.z, kClearcoatIndex) * belowSheen(b, wo.z));
+    return reflectionFresnel(b, wo.z) * reflectedLayers(b, wo, Vec3(-wo.x, -wo.y, wo.z));
 }
 
 std::optional<BsdfSample> deltaSample(Vec3 wi, Vec3 share, float pmf)
@@ -209,6 +171,13 @@ std::optional<BsdfSample> deltaSample(Vec3 wi, Vec3 share, float pmf)
     sample.transmitted = wi.z < 0.0f;
     if (!(pmf > 0.0f) || wi.z == 0.0f) return std::nullopt;
     return sample;
+}
+
+std::optional<BsdfSample> sampleSmoothCoat(const Bsdf& b, Vec3 wo, float pmf, Transport transport)
+{
+    const Vec3 wi = clearcoatMirrored(b, wo);
+    if (!(wi.z > 0.0f)) return std::nullopt;
+    return deltaSample(wi, clearcoatShare(b, wo, wi, transport), pmf);
 }
 
 /// Returns a direction from the interface, nothing if there is none. The result is complete if it
@@ -262,9 +231,8 @@ std::optional<BsdfSample> sampleFacets(const Bsdf& b, Vec3 wo, float uLobe, floa
     }
     else if (uLobe < coated)
     {
-        if (isClearcoatSmooth(b))
-            return deltaSample(Vec3(-wo.x, -wo.y, wo.z), clearcoatShare(b, wo), pmf.clearcoat);
-        const Vec3 h = sampleGgxVisible(wo, b.clearcoatAlpha, u, v);
+        if (isClearcoatSmooth(b)) return sampleSmoothCoat(b, wo, pmf.clearcoat, transport);
+        const Vec3 h = sampleClearcoatFacet(b, wo, u, v);
         sample.wi = h * (2.0f * glm::dot(wo, h)) - wo;
         if (!(sample.wi.z > 0.0f)) return std::nullopt;
     }
@@ -307,7 +275,7 @@ BsdfValue evalLayered(const Bsdf& b, Vec3 localO, Vec3 localI, Transport transpo
     if (!pmf.any) return value;
     if (wi.z > 0.0f)
     {
-        addSameSide(b, wo, wi, pmf, value);
+        addSameSide(b, wo, wi, pmf, transport, value);
         return value;
     }
     if (b.diffuseTransmission != Vec3(0.0f)) addDiffused(b, wo, wi, pmf, value);
@@ -319,15 +287,30 @@ BsdfValue evalLayered(const Bsdf& b, Vec3 localO, Vec3 localI, Transport transpo
     return value;
 }
 
-SpecularLobes layeredLobes(const Bsdf& b, Vec3 wo)
+/// Adds what a smooth clear coat mirrors.
+static void addClearcoatLobe(const Bsdf& b, Vec3 wo, SpecularLobes& lobes)
 {
+    const Vec3 wi = clearcoatMirrored(b, wo);
+    const Vec3 share = clearcoatShare(b, wo, wi, Transport::Radiance);
+    if (!b.coatTilted)
+        lobes.reflection += share;
+    else if (coatCosine(b, wo) > 0.0f)
+    {
+        lobes.coat = share;
+        lobes.coatMirrored = fromFacets(b, wi);
+    }
+}
+
+SpecularLobes layeredLobes(const Bsdf& b, Vec3 localO)
+{
+    const Vec3 wo = toFacets(b, localO);
     SpecularLobes lobes;
     if (b.reflects() && b.isSmooth()) lobes.reflection = mirroredShare(b, wo);
-    if (hasClearcoat(b) && isClearcoatSmooth(b)) lobes.reflection += clearcoatShare(b, wo);
+    if (hasClearcoat(b) && isClearcoatSmooth(b)) addClearcoatLobe(b, wo, lobes);
     if (!b.transmits() || !transmitsSmoothly(b, wo)) return lobes;
     const std::optional<Vec3> passed = refract(wo, Vec3(0.0f, 0.0f, 1.0f), b.transmittedEta());
     if (!passed) return lobes;
-    lobes.refracted = *passed;
+    lobes.refracted = fromFacets(b, *passed);
     lobes.refraction = passedShare(b, wo, *passed, Transport::Radiance);
     return lobes;
 }

@@ -34,11 +34,12 @@ namespace osgRayTrace::engine
 /// body the layers are on the other side: light that leaves gets S of its direction outside.
 ///
 /// A share of the surface, film, has the reflectance of ThinFilm.h in place of F' and of the
-/// metal's S. D and G2 of the interface have the width alphaTangent along tangent [Heitz18, eq. 1,
-/// 2]; the base below gets 1 - E of the azimuth at which the facets reflect most: see CoatShape.
-/// Light that is diffused to the other side leaves through an interface of the same kind, as from a
-/// leaf. If the surface is that of a clear body, too, the terms of both sides differ, and diffuse
-/// transmission is not the same both ways there.
+/// metal's S. A clear coat with a normal of its own has its terms around that normal, wi.z
+/// included, and Ec is that of the cosine to it. D and G2 of the interface have the width
+/// alphaTangent along tangent [Heitz18, eq. 1, 2]; the base below gets 1 - E of the azimuth at
+/// which the facets reflect most: see CoatShape. Light that is diffused to the other side leaves
+/// through an interface of the same kind, as from a leaf. If the surface is that of a clear body,
+/// too, the terms of both sides differ, and diffuse transmission is not the same both ways there.
 std::optional<BsdfSample> sampleLayered(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                         Transport transport);
 BsdfValue evalLayered(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport);
@@ -48,7 +49,7 @@ SpecularLobes layeredLobes(const Bsdf& bsdf, Vec3 wo);
 float baseAverageOf(const Bsdf& bsdf);
 
 /// Returns the least a for which a film makes at most F' + a (1 - F') of F', for the member of that
-/// name, at 33 angles.
+/// name, at 13 angles. Over a body of the index of air F' is that of the film's own index.
 float filmRiseOf(const Bsdf& bsdf);
 
 /// Returns the share of the light that passes a smooth thin wall straight, for a direction with

@@ -8,6 +8,7 @@
 #include "osgRayTrace/shading/ThinFilm.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -29,6 +30,23 @@ inline bool hasClearcoat(const Bsdf& b)
     return b.clearcoat > 0.0f && !b.inside;
 }
 
+/// Returns a direction in the frame of the facets, whose x axis is the tangent.
+inline Vec3 toFacets(const Bsdf& b, Vec3 w)
+{
+    if (!b.isAnisotropic()) return w;
+    const Vec2 t = b.tangent;
+    return {w.x * t.x + w.y * t.y, w.y * t.x - w.x * t.y, w.z};
+}
+
+/// Returns the cosine of a direction to the normal of the clear coat, both on the side of wo; 0 if
+/// the coat turns away from the direction. w: in the frame of the facets, on either side.
+inline float coatCosine(const Bsdf& b, Vec3 w)
+{
+    if (!b.coatTilted) return std::fabs(w.z);
+    const float cosine = glm::dot(w, toFacets(b, b.coatNormal));
+    return std::max(w.z < 0.0f ? -cosine : cosine, 0.0f);
+}
+
 inline bool isClearcoatSmooth(const Bsdf& b)
 {
     return b.clearcoatAlpha < kSmoothAlpha;
@@ -48,11 +66,12 @@ inline float clearcoatAlbedo(const Bsdf& b, float cosTheta)
     return first + (second - first) * b.clearcoatFraction;
 }
 
-/// Returns what sheen and clear coat leave: S, for a direction outside of the body.
-inline float belowLayers(const Bsdf& b, float cosTheta)
+/// Returns what sheen and clear coat leave: S, for a direction outside of the body or its opposite.
+inline float belowLayers(const Bsdf& b, Vec3 w)
 {
-    const float below = belowSheen(b, cosTheta);
-    return b.clearcoat > 0.0f ? below * (1.0f - b.clearcoat * clearcoatAlbedo(b, cosTheta)) : below;
+    const float below = belowSheen(b, std::fabs(w.z));
+    return b.clearcoat > 0.0f ? below * (1.0f - b.clearcoat * clearcoatAlbedo(b, coatCosine(b, w)))
+                              : below;
 }
 
 /// Returns F' of one face whose reflectance is F.
@@ -109,6 +128,14 @@ inline Vec3 reflectionFresnel(const Bsdf& b, float cosTheta)
     return metalFresnel(b, cosTheta) + b.coat * interfaceFresnel(b, cosTheta);
 }
 
+/// Returns whether the surface is a film over a body of the index of air, which reflects by the
+/// film alone. The reference of filmRise, and the albedo of coatRows, are then those of the film's
+/// index.
+inline bool isFilmOnAir(const Bsdf& b)
+{
+    return b.film > 0.0f && b.eta == 1.0f;
+}
+
 /// Returns what the interface leaves to the base: 1 - E'. F' is affine in F, so a rough interface
 /// reflects F' of its albedo or, if R is less than F0, at most specular times its albedo. A film
 /// raises that by filmRise at most.
@@ -118,23 +145,24 @@ inline float belowInterface(const Bsdf& b, float cosTheta)
     if (!b.coatRows) return 1.0f - largestOf(interfaceFresnel(b, cosTheta));
     const float first = b.coatRows[0](cosTheta), second = b.coatRows[1](cosTheta);
     const float albedo = first + (second - first) * b.coatFraction;
-    Vec3 most = glm::max(tinted(b, albedo), Vec3(b.specular * albedo));
+    Vec3 most =
+        isFilmOnAir(b) ? Vec3(albedo) : glm::max(tinted(b, albedo), Vec3(b.specular * albedo));
     if (b.film > 0.0f) most += b.filmRise * (Vec3(1.0f) - most);
     return 1.0f - largestOf(ofWall(b, most));
 }
 
 /// Returns what reaches the base from a direction on the side of wo, or leaves it on the other
 /// side: A.
-inline float aboveBase(const Bsdf& b, float cosTheta)
+inline float aboveBase(const Bsdf& b, Vec3 w)
 {
-    return belowInterface(b, cosTheta) * (b.inside ? 1.0f : belowLayers(b, cosTheta));
+    return belowInterface(b, std::fabs(w.z)) * (b.inside ? 1.0f : belowLayers(b, w));
 }
 
 /// Returns the factor of what passes between wo and a direction on the other side.
-inline float passedLayers(const Bsdf& b, float cosO, float cosI)
+inline float passedLayers(const Bsdf& b, Vec3 wo, Vec3 wi)
 {
-    if (b.thin) return std::min(belowLayers(b, cosO), belowLayers(b, cosI));
-    return belowLayers(b, b.inside ? cosI : cosO);
+    if (b.thin) return std::min(belowLayers(b, wo), belowLayers(b, wi));
+    return belowLayers(b, b.inside ? wi : wo);
 }
 
 } // namespace osgRayTrace::engine

@@ -316,7 +316,8 @@ float distanceTerm(const Light& light, float distance)
 {
     const float falloff = light.attenuationConstant + light.attenuationLinear * distance +
                           light.attenuationQuadratic * distance * distance;
-    return falloff > kLeastFalloff ? 1.0f / falloff : 0.0f;
+    if (!(falloff > kLeastFalloff)) return 0.0f;
+    return light.range > 0.0f ? rangeTerm(light, distance) / falloff : 1.0f / falloff;
 }
 
 float spotTerm(const Light& light, Vec3 direction)

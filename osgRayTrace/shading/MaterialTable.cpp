@@ -181,13 +181,16 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     Coat coat{fresnelDielectricAverage(eta), {}};
     const bool colored =
         m.baseColor != Vec3(0.0f) || (m.detail && m.detail->diffuseTransmission > 0.0f);
-    const bool base = eta != 1.0f && m.metallic < 1.0f && colored &&
+    // A film over a body of the index of air reflects by itself.
+    const float face =
+        eta == 1.0f && m.detail && m.detail->iridescence > 0.0f ? m.detail->iridescenceIor : eta;
+    const bool base = face != 1.0f && m.metallic < 1.0f && colored &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
     const float anisotropy = m.detail ? m.detail->anisotropy : 0.0f;
     if (!base || (roughness * roughness < kSmoothAlpha && anisotropy == 0.0f)) return coat;
     const bool varies = anisotropy > 0.0f && textureOf(m, kAnisotropyRole) != kInvalid;
-    coat.rough = CoatAlbedo::ofShape({eta, anisotropy, varies});
+    coat.rough = CoatAlbedo::ofShape({face, anisotropy, varies});
     if (m.metallicRoughnessTexture == kInvalid)
         coat.rough->prepare(anisotropy > 0.0f ? std::max(roughness, std::sqrt(kSmoothAlpha))
                                               : roughness);

@@ -90,8 +90,8 @@ public:
     Vec3 pane(uint32_t material, const MaterialPoint& point, float cosTheta) const;
 
     /// Returns the normal of a normal map at a point: along s, along t and the surface's normal; of
-    /// any length.
-    Vec3 mappedNormal(const Material& material, const MaterialPoint& point) const;
+    /// any length. role: of the surface or of its clear coat.
+    Vec3 mappedNormal(const Material& material, TextureRole role, const MaterialPoint& point) const;
 
     /// Returns the radiance that leaves the surface by itself: emission, or the colour of unlit
     /// fixed-function materials.

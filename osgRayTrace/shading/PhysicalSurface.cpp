@@ -85,6 +85,7 @@ void MaterialTable::addLayers(const Material& m, const MaterialPoint& point, Bsd
         bsdf.sheenAlpha = roughness * roughness;
     }
     if (bsdf.clearcoat == 0.0f) return;
+    bsdf.coatTilted = hasCoatNormals(m);
     const float roughness = std::clamp(
         d.clearcoatRoughness * textureOr(m, kClearcoatRoughnessRole, point).y, 0.0f, 1.0f);
     bsdf.clearcoatAlpha = roughness * roughness;
@@ -173,10 +174,12 @@ Vec3 MaterialTable::pane(uint32_t material, const MaterialPoint& point, float co
     return straightTransmittance(record.constant ? record.front : bsdf(material, point), cosTheta);
 }
 
-Vec3 MaterialTable::mappedNormal(const Material& m, const MaterialPoint& point) const
+Vec3 MaterialTable::mappedNormal(const Material& m, TextureRole role,
+                                 const MaterialPoint& point) const
 {
-    const Vec3 texel(textureOr(m, kNormalRole, point));
-    const float scale = m.detail->normalScale;
+    const Vec3 texel(textureOr(m, role, point));
+    const float scale =
+        role == kNormalRole ? m.detail->normalScale : m.detail->clearcoatNormalScale;
     return (2.0f * texel - Vec3(1.0f)) * Vec3(scale, scale, 1.0f);
 }
 

@@ -135,6 +135,7 @@ TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them"
     CHECK(material->getSpecularColor() == osg::Vec3(1.0f, 1.0f, 1.0f));
     CHECK(material->getClearcoat() == 0.0f);
     CHECK(material->getClearcoatRoughness() == 0.0f);
+    CHECK(material->getClearcoatNormalScale() == 1.0f);
     CHECK(material->getSheenColor() == osg::Vec3());
     CHECK(material->getSheenRoughness() == 0.0f);
     CHECK(material->getAnisotropy() == 0.0f);
@@ -167,7 +168,7 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
 {
     const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
     std::vector<osg::ref_ptr<PhysicalMaterial>> all;
-    for (int i = 0; i < 11 + 20 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
+    for (int i = 0; i < 11 + 21 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
     {
         all.push_back(new PhysicalMaterial);
     }
@@ -201,7 +202,8 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
     all[28]->setIridescenceIor(1.5f);
     all[29]->setIridescenceThicknessMinimum(200.0f);
     all[30]->setIridescenceThicknessMaximum(500.0f);
-    std::size_t next = 31;
+    all[31]->setClearcoatNormalScale(2.0f);
+    std::size_t next = 32;
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);

@@ -7,6 +7,7 @@
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/LightSource>
+#include <osg/ValueObject>
 
 #include <cmath>
 #include <limits>
@@ -106,6 +107,10 @@ TEST_CASE("point light: position relative to the origin, attenuation and spot te
     CHECK(lights[0].attenuationQuadratic == 0.125f);
     CHECK(lights[0].spotExponent == 8.0f);
     CHECK(lights[0].spotCosCutoff == Approx(0.5f));
+
+    CHECK(lights[0].range == 0.0f);
+    light->setUserValue("osgRayTrace.range", 3.0f);
+    CHECK(scene.lights()[0].range == 3.0f);
 
     light->setSpotCutoff(180.0f);
     CHECK(scene.lights()[0].spotCosCutoff == -1.0f);

@@ -300,6 +300,10 @@ TEST_CASE("material listings: a shared part hides the names of all parents", "[b
     const MaterialListing listing = listMaterials(*root);
     CHECK(listing.entries == 1);
     CHECK(listing.nameless == 1);
+    CHECK(listing.complete);
+    const MaterialListing cut = listMaterials(*root, 4);
+    CHECK_FALSE(cut.complete);
+    CHECK(cut.entries + cut.nameless < listing.entries + listing.nameless);
     SceneConverter plain, listed;
     const ConversionResult before = plain.convert(inputFor(root));
     const ConversionResult after = listed.convert(inputWith(root, listing.text));

@@ -37,6 +37,7 @@ TEST_CASE("physical material: details are there only where some parameter needs 
     physical->setSpecularColor(osg::Vec3(2.0f, 1.0f, 0.5f));
     physical->setClearcoat(0.75f);
     physical->setClearcoatRoughness(0.125f);
+    physical->setClearcoatNormalScale(-2.0f);
     physical->setSheenColor(osg::Vec3(0.5f, 0.25f, 0.0f));
     const Material full = materialOf(triangleGeometry(), physical);
     REQUIRE(full.detail);
@@ -46,6 +47,7 @@ TEST_CASE("physical material: details are there only where some parameter needs 
     CHECK(full.detail->specularColor == Vec3(2.0f, 1.0f, 0.5f));
     CHECK(full.detail->clearcoat == 0.75f);
     CHECK(full.detail->clearcoatRoughness == 0.125f);
+    CHECK(full.detail->clearcoatNormalScale == -2.0f);
     CHECK(full.detail->sheenColor == Vec3(0.5f, 0.25f, 0.0f));
     CHECK(full.detail->sheenRoughness == 0.5f);
     CHECK(full.detail->absorbs());
@@ -141,9 +143,16 @@ TEST_CASE("physical material: textures have their place, and are left out withou
     const Material& material = soleMaterial(result);
     REQUIRE(material.detail);
     CHECK(hasNormalMap(material));
-    CHECK(countOf(result, "approximated.coat-normal") == 0);
+    CHECK_FALSE(hasCoatNormals(material));
     physical->setClearcoat(1.0f);
+    const ConversionResult coated = convertGraph(geometry);
+    CHECK(hasCoatNormals(soleMaterial(coated)));
+    CHECK(countOf(coated, "approximated.coat-normal") == 0);
+    physical->setThinWalled(true); // a wall passes light straight by one normal alone
+    physical->setTransmission(0.5f);
     CHECK(countOf(convertGraph(geometry), "approximated.coat-normal") == 1);
+    physical->setThinWalled(false);
+    physical->setTransmission(0.0f);
     physical->setClearcoat(0.0f);
     CHECK_FALSE(result.scene->textures.at(material.detail->textures[kNormalRole])->decodeSrgb);
     CHECK(material.detail->textures[kSheenColorRole] == kInvalid);

@@ -22,7 +22,8 @@ using namespace osgRayTrace::test;
 namespace
 {
 
-constexpr int kFiles = 20000; ///< seeds
+constexpr int kFiles = 20000;          ///< seeds
+constexpr int kSanitizedFiles = 10000; ///< seeds under a sanitizer
 
 /// What a small file may make, 64 MiB, is held in a few forms for a while.
 constexpr std::size_t kMostBytes = std::size_t(400) << 20;
@@ -222,7 +223,8 @@ TEST_CASE("fuzz: a damaged glTF file gives an error or a scene, and no absurd al
     gltfPlugin();
     const std::vector<std::string> samples = sampleFiles();
     int scenes = 0, errors = 0;
-    forEachSeed(kFiles,
+    const int files = sanitizerShare() > 1 ? kSanitizedFiles * sanitizerShare() : kFiles;
+    forEachSeed(files,
                 [&](uint32_t seed)
                 {
                     Dice dice(seed);
@@ -242,6 +244,6 @@ TEST_CASE("fuzz: a damaged glTF file gives an error or a scene, and no absurd al
                     use(*result.getNode());
                 });
     // The damage is neither always fatal nor never.
-    CHECK(scenes > seedCount(kFiles) / 8);
-    CHECK(errors > seedCount(kFiles) / 4);
+    CHECK(scenes > seedCount(files) / 8);
+    CHECK(errors > seedCount(files) / 4);
 }

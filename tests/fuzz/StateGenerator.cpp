@@ -121,6 +121,7 @@ void addDetails(PhysicalMaterial& material, Dice& dice, const float (&units)[N])
     if (dice.oneIn(2)) material.setSpecularColor(strangeVector(dice, 10.0, 3));
     if (dice.oneIn(2)) material.setClearcoat(dice.oneOf(units));
     material.setClearcoatRoughness(dice.oneOf(units));
+    if (dice.oneIn(2)) material.setClearcoatNormalScale(strangeFloat(dice, 2.0, 4));
     if (dice.oneIn(2)) material.setSheenColor(strangeVector(dice, 1.0, 6));
     material.setSheenRoughness(dice.oneOf(units));
     if (dice.oneIn(3)) material.setAnisotropy(dice.oneOf(units));

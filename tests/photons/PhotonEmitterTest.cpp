@@ -138,12 +138,16 @@ TEST_CASE("photon emission: attenuation other than the square of the distance", 
     light.attenuationLinear = 0.25f;
     light.attenuationQuadratic = 0.125f;
     builder.addLight(light);
+    light.range = 5.0f;
     builder.addLight(pointLight({0, 0, 2.5f}));
     builder.addQuadLight({-0.5f, -0.5f, 3.0f}, {0, 0.6f, 0}, {0.5f, 0, 0}, Vec3(3.0f));
+    builder.addLight(light);
     const auto traced = builder.build(1);
     const PhotonEmitter emitter(*traced, traced->scene().lights, 0.0f);
     for (const float d : {0.01f, 1.0f, 7.0f})
     {
+        const float window = std::max(1.0f - std::pow(d / 5.0f, 4.0f), 0.0f);
+        CHECK(emitter.falloff(3, d) == Approx(window * emitter.falloff(0, d)).margin(1e-9));
         CHECK(emitter.falloff(0, d) == Approx(d * d / (0.5f + 0.25f * d + 0.125f * d * d)));
         CHECK(emitter.falloff(1, d) == Approx(1.0f));
         CHECK(emitter.falloff(2, d) == 1.0f);

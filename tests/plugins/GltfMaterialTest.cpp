@@ -198,7 +198,8 @@ TEST_CASE("gltf: layers and volumes are the PhysicalMaterial's", "[gltf]")
         "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 3,
                                   "attenuationColor": [1, 0.5, 0.25] },
         "KHR_materials_specular": { "specularFactor": 0.25, "specularColorFactor": [2, 1, 0] },
-        "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.125 },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.125,
+            "clearcoatNormalTexture": { "index": 0, "scale": 0.75 } },
         "KHR_materials_sheen": { "sheenColorFactor": [0, 1, 0], "sheenRoughnessFactor": 0.5 } } })"));
     const PhysicalMaterial& physical = *physicalOf(geometryOf(*scene));
     CHECK(physical.getTransmission() == 0.5f);
@@ -209,6 +210,9 @@ TEST_CASE("gltf: layers and volumes are the PhysicalMaterial's", "[gltf]")
     CHECK(physical.getSpecularColor() == osg::Vec3(2, 1, 0));
     CHECK(physical.getClearcoat() == 0.5f);
     CHECK(physical.getClearcoatRoughness() == 0.125f);
+    CHECK(physical.getClearcoatNormalScale() == 0.75f);
+    CHECK(physical.getTexture(PhysicalMaterial::CLEARCOAT_NORMAL_TEXTURE));
+    CHECK_FALSE(physical.getTexture(PhysicalMaterial::NORMAL_TEXTURE));
     CHECK(physical.getSheenColor() == osg::Vec3(0, 1, 0));
     CHECK(physical.getSheenRoughness() == 0.5f);
     const auto thin = sceneOf(modelOf(

@@ -165,7 +165,7 @@ TEST_CASE("gltf: lights give the illuminance that the file says", "[gltf]")
     }
 }
 
-TEST_CASE("gltf: ranges of lights are not read, and one line says so", "[gltf]")
+TEST_CASE("gltf: ranges of lights are kept for rays, and one line says so", "[gltf]")
 {
     Json model = triangleModel();
     model["extensions"]["KHR_lights_punctual"]["lights"] =
@@ -179,14 +179,23 @@ TEST_CASE("gltf: ranges of lights are not read, and one line says so", "[gltf]")
         const Listening listening;
         sceneOf(model);
         const std::string& text = listening.text();
-        const std::size_t first = text.find("ranges of lights");
+        const std::size_t first = text.find("lights have a range");
         if (first == std::string::npos) return 0;
-        return text.find("ranges of lights", first + 1) == std::string::npos ? 1 : 2;
+        return text.find("lights have a range", first + 1) == std::string::npos ? 1 : 2;
     };
     CHECK(linesOf() == 0);
     for (Json& light : model["extensions"]["KHR_lights_punctual"]["lights"])
         light["range"] = 3;
     CHECK(linesOf() == 1);
+    const auto scene = sceneOf(model);
+    for (const osg::LightSource* source : findAll<osg::LightSource>(*scene))
+    {
+        float range = 0.0f;
+        CHECK(source->getLight()->getUserValue("osgRayTrace.range", range));
+        CHECK(range == 3.0f);
+    }
+    model["extensions"]["KHR_lights_punctual"]["lights"][0]["range"] = 0;
+    CHECK(readGltf(model.dump()).message().find("range: is not above 0") != std::string::npos);
 }
 
 TEST_CASE("gltf: instances of a node share its mesh", "[gltf]")

@@ -2,19 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/CommaLocale.h"
+#include "tests/plugins/Serializers.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/PhysicalMaterial>
 #include <osgRayTrace/RayTracedScene>
 
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgDB/Registry>
 
-#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -24,170 +22,7 @@ using osgRayTrace::PhysicalMaterial;
 using osgRayTrace::RayTraceDrawable;
 using osgRayTrace::RayTracedScene;
 using osgRayTrace::RayTraceSettings;
-
-namespace
-{
-
-struct Format
-{
-    const char* extension;
-    const char* fileType; ///< the name by which OSG's stream reader knows the format
-};
-
-constexpr Format kFormats[] = {{"osgt", "Ascii"}, {"osgb", "Binary"}, {"osgx", "XML"}};
-
-osg::ref_ptr<osgDB::Options> optionsOf(const Format& format)
-{
-    osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=IncludeData");
-    options->setPluginStringData("fileType", format.fileType);
-    return options;
-}
-
-osgDB::ReaderWriter& readerWriter(const Format& format)
-{
-    auto* found = osgDB::Registry::instance()->getReaderWriterForExtension(format.extension);
-    REQUIRE(found);
-    return *found;
-}
-
-std::string written(const osg::Object& object, const Format& format)
-{
-    std::ostringstream stream;
-    const auto result = readerWriter(format).writeObject(object, stream, optionsOf(format));
-    REQUIRE(result.success());
-    return stream.str();
-}
-
-osg::ref_ptr<osg::Object> read(const std::string& text, const Format& format)
-{
-    std::istringstream stream(text);
-    const osg::ref_ptr<osgDB::Options> options = optionsOf(format);
-    auto result = readerWriter(format).readObject(stream, options);
-    return result.getObject();
-}
-
-template <typename T> osg::ref_ptr<T> roundTrip(const T& object, const Format& format)
-{
-    const osg::ref_ptr<osg::Object> copy = read(written(object, format), format);
-    REQUIRE(copy);
-    osg::ref_ptr<T> typed = dynamic_cast<T*>(copy.get());
-    REQUIRE(typed);
-    return typed;
-}
-
-osg::ref_ptr<osg::Texture2D> texture(unsigned char value)
-{
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
-    std::fill(image->data(), image->data() + image->getTotalSizeInBytes(), value);
-    return new osg::Texture2D(image);
-}
-
-int valueOf(const osg::Texture2D* texture)
-{
-    return texture && texture->getImage() ? texture->getImage()->data()[0] : -1;
-}
-
-osg::ref_ptr<PhysicalMaterial> glass()
-{
-    osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
-    material->setName("glass");
-    material->setBaseColor(osg::Vec3(0.25f, 0.5f, 0.75f));
-    material->setMetallic(0.125f);
-    material->setRoughness(0.375f);
-    material->setTransmission(0.625f);
-    material->setIor(2.25f);
-    material->setEmission(osg::Vec3(1.5f, 2.5f, 300.0f));
-    material->setBaseColorTexture(texture(1));
-    material->setMetallicRoughnessTexture(texture(2));
-    material->setTransmissionTexture(texture(3));
-    material->setEmissionTexture(texture(4));
-    return material;
-}
-
-} // namespace
-
-TEST_CASE("serializers: PhysicalMaterial keeps every parameter", "[plugins]")
-{
-    const auto material = glass();
-    for (const Format& format : kFormats)
-    {
-        INFO(format.extension);
-        const auto copy = roundTrip(*material, format);
-        CHECK(copy->getName() == "glass");
-        CHECK(copy->getBaseColor() == material->getBaseColor());
-        CHECK(copy->getMetallic() == material->getMetallic());
-        CHECK(copy->getRoughness() == material->getRoughness());
-        CHECK(copy->getTransmission() == material->getTransmission());
-        CHECK(copy->getIor() == material->getIor());
-        CHECK(copy->getEmission() == material->getEmission());
-        CHECK(valueOf(copy->getBaseColorTexture()) == 1);
-        CHECK(valueOf(copy->getMetallicRoughnessTexture()) == 2);
-        CHECK(valueOf(copy->getTransmissionTexture()) == 3);
-        CHECK(valueOf(copy->getEmissionTexture()) == 4);
-    }
-}
-
-TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugins]")
-{
-    const auto material = glass();
-    const std::string plain = written(*material, kFormats[0]);
-    CHECK(plain.find("Details") == std::string::npos); // as files of before, which are read above
-    material->setAlpha(0.25f);
-    material->setVertexColors(true);
-    material->setNormalScale(-0.1f);
-    material->setThinWalled(true);
-    material->setAttenuationColor(osg::Vec3(0.1f, 0.2f, 0.3f));
-    material->setAttenuationDistance(1e-20f);
-    material->setSpecular(0.7f);
-    material->setSpecularColor(osg::Vec3(1e6f, 0.5f, 0.0f));
-    material->setClearcoat(0.9f);
-    material->setClearcoatRoughness(0.8f);
-    material->setSheenColor(osg::Vec3(0.6f, 0.0f, 1.0f));
-    material->setSheenRoughness(0.3f);
-    material->setAnisotropy(0.1f);
-    material->setAnisotropyRotation(-3.3f);
-    material->setDiffuseTransmission(0.2f);
-    material->setDiffuseTransmissionColor(osg::Vec3(0.7f, 0.0f, 1.0f));
-    material->setIridescence(0.4f);
-    material->setIridescenceIor(1.1f);
-    material->setIridescenceThicknessMinimum(0.0f);
-    material->setIridescenceThicknessMaximum(1234.5f);
-    for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
-    {
-        const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
-        material->setTexture(use, texture(static_cast<unsigned char>(10 + i)));
-        PhysicalMaterial::TexturePlace place;
-        place.unit = i % 2;
-        place.offset.set(0.1f * i, -0.2f);
-        place.rotation = 0.3f;
-        place.scale.set(2.0f, 1.0f / 3.0f);
-        material->setTexturePlace(use, place);
-    }
-    const osg::ref_ptr<osg::Geode> scene = new osg::Geode; // with something behind the material
-    scene->getOrCreateStateSet()->setAttribute(material);
-    scene->addDrawable(new osg::Geometry);
-    for (const Format& format : kFormats)
-    {
-        INFO(format.extension);
-        const auto copied = roundTrip(*scene, format);
-        REQUIRE(copied->getNumDrawables() == 1);
-        const auto* copy = dynamic_cast<const PhysicalMaterial*>(
-            copied->getStateSet()->getAttribute(PhysicalMaterial::ATTRIBUTE_TYPE));
-        REQUIRE(copy);
-        for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
-        {
-            const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
-            CHECK(valueOf(copy->getTexture(use)) == 10 + i);
-            CHECK(copy->getTexturePlace(use) == material->getTexturePlace(use));
-        }
-        const osg::ref_ptr<PhysicalMaterial> own = new PhysicalMaterial(*copy);
-        for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
-            own->setTexture(static_cast<PhysicalMaterial::TextureUse>(i),
-                            material->getTexture(static_cast<PhysicalMaterial::TextureUse>(i)));
-        CHECK(own->compare(*material) == 0);
-    }
-}
+using namespace osgRayTrace::test;
 
 TEST_CASE("serializers: numbers have a point in any locale", "[plugins]")
 {
@@ -243,22 +78,6 @@ TEST_CASE("serializers: objects at their defaults stay at them", "[plugins]")
         CHECK(copy->getEdgeV() == light->getEdgeV());
         CHECK(copy->getRadiance() == light->getRadiance());
         CHECK_FALSE(copy->getTwoSided());
-    }
-}
-
-TEST_CASE("serializers: a state set keeps the material with its override", "[plugins]")
-{
-    const osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setAttribute(glass(), osg::StateAttribute::OVERRIDE);
-    for (const Format& format : kFormats)
-    {
-        INFO(format.extension);
-        const auto copy = roundTrip(*group, format);
-        REQUIRE(copy->getStateSet());
-        const auto* pair = copy->getStateSet()->getAttributePair(PhysicalMaterial::ATTRIBUTE_TYPE);
-        REQUIRE(pair);
-        CHECK((pair->second & osg::StateAttribute::OVERRIDE) != 0);
-        CHECK(static_cast<PhysicalMaterial&>(*pair->first).getIor() == 2.25f);
     }
 }
 

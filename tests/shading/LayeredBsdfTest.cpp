@@ -286,6 +286,43 @@ TEST_CASE("layers: equal widths along and across are one width", "[shading]")
     }
 }
 
+TEST_CASE("layers: a rough film over a white base of any index makes no energy",
+          "[shading][statistics]")
+{
+    // At these thicknesses a film over air is darkest along the normal, and rough facets turn from
+    // there: see filmRise.
+    const struct
+    {
+        float roughness, film, thickness;
+    } kinds[] = {
+        {0.4f, 1.8f, 450.0f}, {0.4f, 1.5f, 550.0f}, {0.4f, 1.3f, 630.0f}, {1.0f, 2.0f, 180.0f}};
+    for (const auto& kind : kinds)
+        for (const float ior : {1.0f, 1.02f, 1.5f})
+            for (const double cosine : {1.0, 0.8, 0.5, 0.2})
+            {
+                MaterialDetail detail;
+                detail.iridescence = 1.0f;
+                detail.iridescenceIor = kind.film;
+                detail.iridescenceThickness = Vec2(kind.thickness);
+                Material white = dielectric(kind.roughness, 0.0f);
+                white.ior = ior;
+                const Bsdf bsdf = withDetail(white, detail);
+                Estimate share[3];
+                Uniform random(3);
+                for (int i = 0; i < 100000; ++i)
+                {
+                    const float uLobe = random(), u = random(), v = random();
+                    const auto sample = sampleBsdf(bsdf, directionOf(cosine, 0.4), uLobe, u, v);
+                    for (int c = 0; c < 3; ++c)
+                        share[c].add(sample ? sample->weight[c] : 0.0);
+                }
+                const double most = std::max({share[0].mean(), share[1].mean(), share[2].mean()});
+                CAPTURE(ior, kind.film, kind.roughness, kind.thickness, cosine, most);
+                CHECK(most < 1.002 + 4.0 * share[0].standardError());
+                CHECK((most > 0.6 || ior == 1.02f)); // the bound takes light from the base
+            }
+}
+
 TEST_CASE("layers: a white leaf keeps all light, and sends its share to the other side",
           "[shading][statistics]")
 {

@@ -199,6 +199,12 @@ TEST_CASE("delta light: attenuation and spot terms of OpenGL", "[shading]")
     CHECK(plain.distance == 2.0f);
     CHECK(plain.wi == Vec3(0, 0, 1));
 
+    light.range = 4.0f; // half the range: 1 - 1/16 is left
+    CHECK(sampleDelta(light, Vec3(0.0f)).attenuation == Approx(0.9375 / 1.5));
+    light.range = 2.0f;
+    CHECK(sampleDelta(light, Vec3(0.0f)).attenuation == 0.0f);
+    light.range = 0.0f;
+
     light.attenuationConstant = 1.0f;
     light.attenuationLinear = light.attenuationQuadratic = 0.0f;
     light.direction = Vec3(0, 0, -1);

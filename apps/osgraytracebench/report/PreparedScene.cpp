@@ -109,9 +109,9 @@ void hashDetail(Hasher& hasher, const MaterialDetail& detail)
         hasher.add(color);
     for (const float value :
          {detail.attenuationDistance, detail.specular, detail.clearcoat, detail.clearcoatRoughness,
-          detail.sheenRoughness, detail.normalScale, detail.anisotropy, detail.anisotropyRotation,
-          detail.diffuseTransmission, detail.iridescence, detail.iridescenceIor,
-          detail.iridescenceThickness.x, detail.iridescenceThickness.y})
+          detail.clearcoatNormalScale, detail.sheenRoughness, detail.normalScale, detail.anisotropy,
+          detail.anisotropyRotation, detail.diffuseTransmission, detail.iridescence,
+          detail.iridescenceIor, detail.iridescenceThickness.x, detail.iridescenceThickness.y})
         hasher.add(value);
     for (const uint32_t texture : detail.textures)
         hasher.add(texture);
@@ -173,7 +173,7 @@ void hashLight(Hasher& hasher, const Light& light)
         hasher.add(v);
     for (const float value :
          {light.attenuationConstant, light.attenuationLinear, light.attenuationQuadratic,
-          light.spotExponent, light.spotCosCutoff, light.radius, light.sine})
+          light.range, light.spotExponent, light.spotCosCutoff, light.radius, light.sine})
         hasher.add(value);
     hasher.add(light.eyeSpace);
     hasher.add(light.castsShadows);

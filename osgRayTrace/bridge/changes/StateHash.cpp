@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/StateHash.h"
 
+#include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureFormats.h"
 
@@ -44,11 +45,12 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
 {
     hasher.add(material.getBaseColor(), material.getMetallic(), material.getRoughness(),
                material.getTransmission(), material.getIor(), material.getEmission());
-    hasher.add(
-        material.getAlpha(), material.getVertexColors(), material.getNormalScale(),
-        material.getThinWalled(), material.getAttenuationColor(), material.getAttenuationDistance(),
-        material.getSpecular(), material.getSpecularColor(), material.getClearcoat(),
-        material.getClearcoatRoughness(), material.getSheenColor(), material.getSheenRoughness());
+    hasher.add(material.getAlpha(), material.getVertexColors(), material.getNormalScale(),
+               material.getThinWalled(), material.getAttenuationColor(),
+               material.getAttenuationDistance(), material.getSpecular(),
+               material.getSpecularColor(), material.getClearcoat(),
+               material.getClearcoatRoughness(), material.getClearcoatNormalScale(),
+               material.getSheenColor(), material.getSheenRoughness());
     hasher.add(material.getAnisotropy(), material.getAnisotropyRotation(),
                material.getDiffuseTransmission(), material.getDiffuseTransmissionColor(),
                material.getIridescence(), material.getIridescenceIor(),
@@ -199,7 +201,7 @@ void addLight(Hasher& hasher, const osg::Light& light)
     hasher.add(light.getLightNum(), light.getAmbient(), light.getDiffuse(), light.getSpecular(),
                light.getPosition(), light.getDirection(), light.getConstantAttenuation(),
                light.getLinearAttenuation(), light.getQuadraticAttenuation(),
-               light.getSpotExponent(), light.getSpotCutoff());
+               light.getSpotExponent(), light.getSpotCutoff(), rangeOf(light));
 }
 
 void addTexGen(Hasher& hasher, const osg::TexGen& texGen)

@@ -23,7 +23,7 @@ bool same(const Light& a, const Light& b)
     {
         return std::tie(l.kind, l.number, l.eyeSpace, l.castsShadows, l.ambient, l.diffuse,
                         l.specular, l.position, l.direction, l.attenuationConstant,
-                        l.attenuationLinear, l.attenuationQuadratic, l.spotExponent,
+                        l.attenuationLinear, l.attenuationQuadratic, l.range, l.spotExponent,
                         l.spotCosCutoff, l.radius, l.sine);
     };
     const auto area = [](const Light& l)

@@ -332,7 +332,7 @@ void readTriangles(TriangleList& list, const osg::Geometry& geometry, const osg:
     mesh.rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
     mesh.rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
     mesh.colors = fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), counts);
-    // Nobody turns the tangents of a geometry that deforms: those of its triangles serve.
+    // Nobody turns the tangents of a geometry that deforms: it gets new ones (VertexTangents.h).
     if (!request.copies) mesh.tangents = reader.tangents(tangentArray(geometry));
 }
 

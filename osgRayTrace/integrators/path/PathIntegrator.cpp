@@ -61,9 +61,9 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                 : materials.bsdf(bounce.surface.material[i],
                                  materialPoint(tile.context, block.rays, bounce.surface, i));
         if (record.pane) dropStraightLobe(bounce.bsdfs[i]);
-        if (bounce.bsdfs[i].isAnisotropic())
-            alignTangent(*tile.context.traced, block.rays, bounce.surface, i,
-                         laneOf(bounce.normal, i), bounce.bsdfs[i]);
+        if (bounce.bsdfs[i].needsAxes())
+            alignLayers(*tile.context.traced, block.rays, bounce.surface, i,
+                        laneOf(bounce.normal, i), bounce.bsdfs[i]);
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;

@@ -127,9 +127,9 @@ void classify(WhittedTile& tile, ShadingBlock& block)
                          : materials.bsdf(
                                material, materialPoint(tile.context, block.rays, block.surface, i));
         m.physical |= 1u << i;
-        if (m.bsdfs[i].isAnisotropic())
-            alignTangent(*tile.context.traced, block.rays, block.surface, i, laneOf(m.normal, i),
-                         m.bsdfs[i]);
+        if (m.bsdfs[i].needsAxes())
+            alignLayers(*tile.context.traced, block.rays, block.surface, i, laneOf(m.normal, i),
+                        m.bsdfs[i]);
         if (!m.bsdfs[i].passesLight()) continue;
         m.transmissive |= 1u << i;
         dropTerminatorOffset(block.surface, 1u << i); // refraction depends on where the facet is
@@ -162,6 +162,9 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
         const Vec3 mirrored = frame.toWorld(Vec3(-wo.x, -wo.y, wo.z));
         if (lobes.reflection != Vec3(0.0f) && isAboveFacet(block.surface, i, mirrored))
             push(tile, block, i, mirrored, weight * lobes.reflection, etaScale);
+        const Vec3 fromCoat = frame.toWorld(lobes.coatMirrored);
+        if (lobes.coat != Vec3(0.0f) && isAboveFacet(block.surface, i, fromCoat))
+            push(tile, block, i, fromCoat, weight * lobes.coat, etaScale);
         if (lobes.refraction == Vec3(0.0f)) continue;
         const Vec3 refracted = frame.toWorld(lobes.refracted);
         const float eta = m.bsdfs[i].transmittedEta();

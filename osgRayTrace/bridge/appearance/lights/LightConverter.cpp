@@ -4,6 +4,7 @@
 
 #include <osgRayTrace/AreaLight>
 
+#include <osg/ValueObject>
 #include <osg/Vec3d>
 #include <osg/Vec4d>
 
@@ -54,6 +55,13 @@ float cosCutoff(float degrees)
 
 } // namespace
 
+float rangeOf(const osg::Light& light)
+{
+    float range = 0.0f;
+    if (!light.getUserValue("osgRayTrace.range", range)) return 0.0f;
+    return std::isfinite(range) && range > 0.0f ? range : 0.0f;
+}
+
 std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& engineFromLocal,
                                   bool eyeSpace, double unit)
 {
@@ -84,6 +92,7 @@ std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& 
     // OpenGL's values are given for world lengths; the engine evaluates them with engine lengths.
     light.attenuationLinear = static_cast<float>(source.getLinearAttenuation() * unit);
     light.attenuationQuadratic = static_cast<float>(source.getQuadraticAttenuation() * unit * unit);
+    light.range = static_cast<float>(rangeOf(source) / unit);
     light.spotExponent = source.getSpotExponent();
     light.spotCosCutoff = cosCutoff(source.getSpotCutoff());
     return isFiniteLight(light) ? std::optional<Light>(light) : std::nullopt;

@@ -19,6 +19,10 @@ class AreaLight;
 namespace osgRayTrace::engine
 {
 
+/// Returns the range of a light [world lengths], its user value "osgRayTrace.range" of type float;
+/// 0: none.
+float rangeOf(const osg::Light& light);
+
 /// Converts a directional or point light with OpenGL's meaning of each value. The matrix places the
 /// light in engine space, or is the identity for a light in eye space; unit is Scene::unit. Returns
 /// nothing if a value is not finite.

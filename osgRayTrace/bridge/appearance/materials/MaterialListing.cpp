@@ -35,8 +35,11 @@ class GeometryVisitor : public osg::NodeVisitor
 public:
     using Use = std::function<void(const osg::NodePath&, const GraphState&)>;
 
-    explicit GeometryVisitor(const Use& use)
-        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ALL_CHILDREN), _use(use), _states(GraphState())
+    GeometryVisitor(const Use& use, std::size_t mostVisits)
+        : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ALL_CHILDREN),
+          _use(use),
+          _mostVisits(mostVisits),
+          _states(GraphState())
     {
     }
 
@@ -46,8 +49,9 @@ public:
         if (stateSet) _states.push(*stateSet);
         const uint32_t state = _states.top(), chainAbove = _chain;
         if (!node.getName().empty()) _chain = chainWith(node.getName());
-        if (getNodePath().size() < kDeepest && _seen.size() < kMostVisits &&
-            _seen.insert({&node, state, _chain}).second)
+        if (getNodePath().size() >= kDeepest || _seen.size() >= _mostVisits)
+            _complete = false;
+        else if (_seen.insert({&node, state, _chain}).second)
         {
             if (node.asGeometry())
                 _use(getNodePath(), _states.states()[state]);
@@ -58,9 +62,11 @@ public:
         if (stateSet) _states.pop();
     }
 
+    /// Returns false if the traversal has left something out.
+    bool isComplete() const { return _complete; }
+
 private:
-    static constexpr std::size_t kDeepest = 5000;                    ///< as in conversions
-    static constexpr std::size_t kMostVisits = std::size_t(1) << 22; ///< as in conversions
+    static constexpr std::size_t kDeepest = 5000; ///< as in conversions
 
     /// Returns the number of the chain of names that goes on with this name.
     uint32_t chainWith(const std::string& name)
@@ -70,16 +76,27 @@ private:
     }
 
     const Use& _use;
+    std::size_t _mostVisits;
+    bool _complete = true;
     StateStack _states;
     uint32_t _chain = 0; ///< of the names above; 0: there is none
     std::map<std::pair<uint32_t, std::string>, uint32_t> _chains;
     std::set<std::tuple<const osg::Node*, uint32_t, uint32_t>> _seen;
 };
 
-void eachGeometry(osg::Node& scene, const GeometryVisitor::Use& use)
+/// Holds a graph and how many of its nodes are visited at most.
+struct Listed
 {
-    GeometryVisitor visitor(use);
-    scene.accept(visitor);
+    osg::Node& scene;
+    std::size_t mostVisits;
+};
+
+/// Calls use for each geometry; returns false if some were left out.
+bool eachGeometry(const Listed& listed, const GeometryVisitor::Use& use)
+{
+    GeometryVisitor visitor(use, listed.mostVisits);
+    listed.scene.accept(visitor);
+    return visitor.isComplete();
 }
 
 /// Returns the name as text of JSON; nothing if it cannot be a name in a file.
@@ -133,7 +150,7 @@ MaterialRuleList& groupOf(const std::string& name, MaterialLibrary& library)
 }
 
 /// Returns the entries that a file needs, without values.
-MaterialLibrary entriesOf(osg::Node& scene)
+MaterialLibrary entriesOf(const Listed& listed)
 {
     MaterialLibrary library;
     const auto add = [&library](const EntryName& entry)
@@ -142,7 +159,7 @@ MaterialLibrary entriesOf(osg::Node& scene)
             groupOf(entry.group, library).add({entry.group, entry.name, nullptr, true, false, {}});
     };
     std::set<std::string> taken; // names of nodes above geometries with a name of their own
-    eachGeometry(scene,
+    eachGeometry(listed,
                  [&](const osg::NodePath& path, const GraphState& state)
                  {
                      const EntryName name = ownName(state);
@@ -151,7 +168,7 @@ MaterialLibrary entriesOf(osg::Node& scene)
                      for (const osg::Node* node : path)
                          taken.insert(node->getName());
                  });
-    eachGeometry(scene,
+    eachGeometry(listed,
                  [&](const osg::NodePath& path, const GraphState& state)
                  {
                      if (!ownName(state).group) add(nodeName(path, taken));
@@ -197,32 +214,34 @@ std::string parameterLines(const PhysicalMaterial& material)
 
 /// Returns the parameters of each entry: none if those of its geometries differ.
 std::map<const MaterialRule*, std::string>
-valuesOf(osg::Node& scene, const MaterialLibrary& library, std::size_t& nameless)
+valuesOf(const Listed& listed, const MaterialLibrary& library, MaterialListing& listing)
 {
     std::map<const MaterialRule*, std::string> values;
-    eachGeometry(scene,
-                 [&](const osg::NodePath& path, const GraphState& state)
-                 {
-                     const MaterialRule* rule = ruleFor(library, path, state);
-                     if (!rule)
-                     {
-                         ++nameless;
-                         return;
-                     }
-                     const std::string lines = parameterLines(*materialOfModel(state));
-                     const auto [known, isNew] = values.try_emplace(rule, lines);
-                     if (!isNew && known->second != lines) known->second.clear();
-                 });
+    listing.complete = eachGeometry(listed,
+                                    [&](const osg::NodePath& path, const GraphState& state)
+                                    {
+                                        const MaterialRule* rule = ruleFor(library, path, state);
+                                        if (!rule)
+                                        {
+                                            ++listing.nameless;
+                                            return;
+                                        }
+                                        const std::string lines =
+                                            parameterLines(*materialOfModel(state));
+                                        const auto [known, isNew] = values.try_emplace(rule, lines);
+                                        if (!isNew && known->second != lines) known->second.clear();
+                                    });
     return values;
 }
 
 } // namespace
 
-MaterialListing listMaterials(osg::Node& scene)
+MaterialListing listMaterials(osg::Node& scene, std::size_t mostVisits)
 {
     MaterialListing listing;
-    const MaterialLibrary library = entriesOf(scene);
-    const auto values = valuesOf(scene, library, listing.nameless);
+    const Listed listed{scene, mostVisits};
+    const MaterialLibrary library = entriesOf(listed);
+    const auto values = valuesOf(listed, library, listing);
     std::string groups;
     for (const auto& [group, list] :
          {std::make_pair("nodes", &library.nodes), std::make_pair("materials", &library.materials),

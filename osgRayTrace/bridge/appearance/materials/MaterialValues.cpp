@@ -76,9 +76,9 @@ private:
             add(color);
         for (const float value :
              {d.attenuationDistance, d.specular, d.clearcoat, d.clearcoatRoughness,
-              d.sheenRoughness, d.normalScale, d.anisotropy, d.anisotropyRotation,
-              d.diffuseTransmission, d.iridescence, d.iridescenceIor, d.iridescenceThickness.x,
-              d.iridescenceThickness.y})
+              d.clearcoatNormalScale, d.sheenRoughness, d.normalScale, d.anisotropy,
+              d.anisotropyRotation, d.diffuseTransmission, d.iridescence, d.iridescenceIor,
+              d.iridescenceThickness.x, d.iridescenceThickness.y})
             add(value);
         _values.insert(_values.end(), d.textures.begin(), d.textures.end());
         for (const TexturePlace& place : d.places)

@@ -15,7 +15,8 @@ static_assert(int(PhysicalMaterial::NUMBER_OF_TEXTURES) == int(kTextureRoles) &&
                   int(PhysicalMaterial::CLEARCOAT_TEXTURE) == int(kClearcoatRole) &&
                   int(PhysicalMaterial::SHEEN_ROUGHNESS_TEXTURE) == int(kSheenRoughnessRole) &&
                   int(PhysicalMaterial::IRIDESCENCE_THICKNESS_TEXTURE) ==
-                      int(kIridescenceThicknessRole),
+                      int(kIridescenceThicknessRole) &&
+                  int(PhysicalMaterial::CLEARCOAT_NORMAL_TEXTURE) == int(kClearcoatNormalRole),
               "the orders are the same");
 
 Vec3 rgb(const osg::Vec3& color)
@@ -30,7 +31,7 @@ PhysicalMaterial::TextureUse useOf(uint32_t role)
 
 TextureContent contentOf(uint32_t role)
 {
-    if (role == kNormalRole) return TextureContent::Normals;
+    if (isNormalRole(role)) return TextureContent::Normals;
     const bool isColor = role == kBaseColorRole || role == kEmissionRole ||
                          role == kSpecularColorRole || role == kSheenColorRole ||
                          role == kDiffuseTransmissionColorRole;
@@ -75,6 +76,7 @@ MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inp
     detail.specularColor = rgb(source.getSpecularColor());
     detail.clearcoat = source.getClearcoat();
     detail.clearcoatRoughness = source.getClearcoatRoughness();
+    detail.clearcoatNormalScale = source.getClearcoatNormalScale();
     detail.sheenColor = rgb(source.getSheenColor());
     detail.sheenRoughness = source.getSheenRoughness();
     detail.normalScale = source.getNormalScale();
@@ -141,9 +143,10 @@ Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& i
     }
     if (lacksCoordinates) report.count("approximated.no-texture-coordinates");
     if (!needsDetail(source)) return material;
-    if (detail.clearcoat > 0.0f && detail.textures[kNormalRole] != kInvalid)
-        report.count("approximated.coat-normal");
     material.detail = std::make_shared<MaterialDetail>(detail);
+    if (detail.clearcoat > 0.0f && detail.thinWalled && material.transmission > 0.0f &&
+        (hasNormalMap(material) || detail.textures[kClearcoatNormalRole] != kInvalid))
+        report.count("approximated.coat-normal");
     return material;
 }
 
