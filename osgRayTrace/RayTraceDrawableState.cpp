@@ -50,7 +50,7 @@ void RayTraceDrawable::Implementation::recordNothingSeen(const engine::SceneVers
     nothing.scene = version.inputs.scene;
     nothing.progress.passes = version.inputs.maxPasses;
     nothing.progress.imageShare = 1.0;
-    nothing.progress.relativeError = 0.0;
+    nothing.progress.error = {0.0, 0.0, 0.0};
     std::shared_ptr<ViewPresenter> last; // freed without the lock
     std::lock_guard<std::mutex> lock(mutex);
     report = std::move(nothing);

@@ -15,4 +15,13 @@ std::string errorText(double relativeError)
     return text;
 }
 
+std::string estimateText(const Statistics& statistics)
+{
+    char share[80];
+    std::snprintf(share, sizeof(share), "the worst 0.1 %% of the pixels hold %.0f %% of its square",
+                  100.0 * statistics.worstErrorShare);
+    return errorText(statistics.relativeError) + " (median tile " +
+           errorText(statistics.medianError) + ", " + share + ")";
+}
+
 } // namespace osgRayTrace::app

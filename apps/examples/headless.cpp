@@ -33,7 +33,8 @@ int main(int argc, char** argv)
     }
     const osgRayTrace::Statistics& statistics = renderer->getStatistics();
     std::cout << statistics.passes << " passes in " << statistics.renderSeconds
-              << " s, estimated error " << 100.0 * statistics.relativeError << " %\n";
+              << " s, estimated error " << 100.0 * statistics.relativeError << " %, "
+              << 100.0 * statistics.medianError << " % in the median tile\n";
 
     // The display image is tone mapped, in 8 bits. The colour image holds linear radiance in floats
     // for further processing; the EXR plugin comes with osgRayTrace.

@@ -75,6 +75,8 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                            {"radius", statistics.photonRadius},
                            {"note", statistics.photonNote}};
     json["relativeError"] = statistics.relativeError;
+    json["medianError"] = statistics.medianError;
+    json["worstErrorShare"] = statistics.worstErrorShare;
     if (!statistics.denoiser.empty())
     {
         json["denoiser"] = statistics.denoiser;
@@ -127,7 +129,7 @@ std::string statisticsLine(const Options& options, const Statistics& statistics,
     else if (!blank.empty())
         line += ", " + blank;
     else if (std::isfinite(statistics.relativeError))
-        line += ", estimated error " + errorText(statistics.relativeError);
+        line += ", estimated error " + estimateText(statistics);
     if (statistics.relativeError > options.relativeError && options.relativeError > 0.0)
         line += ", --error " + errorText(options.relativeError) + " was not reached";
     if (statistics.droppedSamples > 0)

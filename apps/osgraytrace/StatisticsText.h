@@ -19,8 +19,8 @@ namespace osgRayTrace::app
 std::string statisticsJson(const Options& options, const Statistics& statistics,
                            const std::optional<ErrorMeasures>& measures);
 
-/// Returns "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 %", and whether that is
-/// what was asked for. If the picture shows nothing the line says so instead of the error.
+/// Returns "path, 64 passes in 3.2 s, 41 M rays/s, estimated error 0.81 % (...)", and whether that
+/// is what was asked for. If the picture shows nothing the line says so instead of the error.
 std::string statisticsLine(const Options& options, const Statistics& statistics,
                            const osg::Image& radiance);
 

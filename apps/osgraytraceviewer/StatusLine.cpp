@@ -99,7 +99,8 @@ std::string statusText(const RayTracedScene& scene, bool frozen)
     if (statistics.renderSeconds > 0.0)
         text += format("   %.1f M rays/s", 1e-6 * rays / statistics.renderSeconds);
     if (std::isfinite(statistics.relativeError))
-        text += "   error " + errorText(statistics.relativeError);
+        text += "   error " + errorText(statistics.relativeError) + ", median " +
+                errorText(statistics.medianError);
     if (statistics.resolutionDivider > 1)
         text += format("   1/%d resolution", statistics.resolutionDivider);
     if (settings.getExposure() != 0.0f)

@@ -47,60 +47,6 @@ float* floatsOf(TileRgba& values)
     return values[0].r.v;
 }
 
-/// Holds the sums of one channel of a tile.
-struct HalfSums
-{
-    double squares = 0.0; ///< sum of the squared differences of the halves
-    double first = 0.0, second = 0.0;
-};
-
-/// Adds lane by lane, so that the loop needs no order of its additions, and in double, which has
-/// room for squares of bright values.
-OSGRAYTRACE_KERNEL
-void sumLanes(const float* __restrict first, const float* __restrict second,
-              double* __restrict squares, double* __restrict firsts, double* __restrict seconds)
-{
-    for (int b = 0; b < kTileBlocks; ++b)
-    {
-        const std::size_t at = static_cast<std::size_t>(b) * kChannels * kLanes;
-        OSGRAYTRACE_SIMD
-        for (std::size_t i = 0; i < kLanes; ++i)
-        {
-            const double x = first[at + i], y = second[at + i];
-            squares[i] += (x - y) * (x - y);
-            firsts[i] += x;
-            seconds[i] += y;
-        }
-    }
-}
-
-HalfSums sumHalves(const float* first, const float* second)
-{
-    Lanes<double> squares{}, firsts{}, seconds{};
-    sumLanes(first, second, squares.v, firsts.v, seconds.v);
-    HalfSums sums;
-    for (int i = 0; i < kLanes; ++i)
-    {
-        sums.squares += squares[i];
-        sums.first += firsts[i];
-        sums.second += seconds[i];
-    }
-    return sums;
-}
-
-/// Makes the pixels of a tile that are not in the image black.
-void clearOutside(int columns, int rows, TileRgba& values)
-{
-    for (int b = 0; b < kTileBlocks; ++b)
-    {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            if (laneX(b, i) < columns && laneY(b, i) < rows) continue;
-            values[b].r[i] = values[b].g[i] = values[b].b[i] = 0.0f;
-        }
-    }
-}
-
 } // namespace
 
 void Film::reset(int width, int height)
@@ -255,32 +201,6 @@ float Film::errorScale(int tile) const
     const double variance = (2.0 * n * n + last) / ((2.0 * n + 1.0) * (2.0 * n + 1.0));
     const double difference = (n * n + last) / ((n + 1.0) * (n + 1.0)) + 1.0;
     return static_cast<float>(std::sqrt(variance / difference));
-}
-
-Film::ErrorSum Film::relativeSquaredError(int tile) const
-{
-    TileRgba first, second;
-    halfMeans(tile, first, second);
-    const int columns = std::min(kTileSize, _width - tileX(tile));
-    const int rows = std::min(kTileSize, _height - tileY(tile));
-    if (columns < kTileSize || rows < kTileSize)
-    {
-        clearOutside(columns, rows, first);
-        clearOutside(columns, rows, second);
-    }
-    const double pixels = double(columns) * rows;
-    const double scale = errorScale(tile);
-    const double firstWeight = double((tilePasses(tile) + 1) / 2) / tilePasses(tile);
-    ErrorSum error;
-    for (std::size_t channel = 0; channel < 3; ++channel)
-    {
-        const HalfSums sums =
-            sumHalves(floatsOf(first) + channel * kLanes, floatsOf(second) + channel * kLanes);
-        const double mean = (sums.first * firstWeight + sums.second * (1.0 - firstWeight)) / pixels;
-        error.sum += sums.squares * scale * scale / (mean * mean + 0.01);
-    }
-    error.count = 3 * int64_t(columns) * rows;
-    return error;
 }
 
 } // namespace osgRayTrace::engine

@@ -46,8 +46,7 @@ using TileRgba = RgbaLanes[kTileBlocks];
 /// Holds the sums of two halves: passes 0, 2, 4, ... go to the first half, the others to the
 /// second. The halves are sampled independently, so that for the mean m = (a + b)/2 of their means
 /// the variance estimate (a - b)^2/4 is unbiased [Rousselle12, sect. 3]; see errorScale for an odd
-/// number of passes. Photons, which are looked up in discs, blur both halves alike: that bias is
-/// not in the estimate. Tiles are independent: different threads may write different tiles. Sums of
+/// number of passes. Tiles are independent: different threads may write different tiles. Sums of
 /// a bounded number of passes are float, their totals double.
 class Film
 {
@@ -108,19 +107,6 @@ public:
     /// with a and b the halves' means. The factor is 1/2, and about 1/2 for an odd number of
     /// passes, because the halves then differ in size; it is 0 below two passes.
     float errorScale(int tile) const;
-
-    /// Holds an estimate of the sum over the tile's pixels and RGB of (x - r)^2 / (R^2 + 0.01), and
-    /// the number of terms; needs two passes. x is this image, r the converged one, and R the mean
-    /// of r over the pixels of the tile, channel by channel. R is not known but taken from x; the
-    /// tile has so many samples that this matters only if errors are greater than visible ones. A
-    /// pixel's own r, or that of a block of 4 x 4, would be as noisy as the error at a light's
-    /// edge, and hide most of the error.
-    struct ErrorSum
-    {
-        double sum = 0.0;
-        int64_t count = 0;
-    };
-    ErrorSum relativeSquaredError(int tile) const;
 
 private:
     static constexpr int kFoldPasses = 128; ///< passes of a half that are summed in float

@@ -48,7 +48,7 @@ constexpr std::size_t kRecordedPixels = 16384;
 constexpr std::size_t kMostRecordedStride = 16; ///< at least one of so many pixels is recorded
 
 /// Returns the sums by bin of the squares of the contributions of single photons, relative to the
-/// radiance of the tile as in RenderProgress::relativeError: dim places matter, too. A bin may have
+/// radiance of the tile as in ErrorEstimate::relative: dim places matter, too. A bin may have
 /// thousands of photons.
 std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const RgbaLanes* rgba)
 {

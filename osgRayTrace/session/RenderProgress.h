@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/film/ErrorEstimate.h"
 #include "osgRayTrace/integrators/shared/RenderOptions.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 
@@ -26,8 +27,7 @@ struct StopRule
     /// Limit of the seconds of this call. The clock is read between passes, which stay whole, and
     /// one pass at least is made. shouldStop serves a limit that holds within passes.
     double seconds = std::numeric_limits<double>::infinity();
-    /// Limit of the estimated error of the accumulated image, see RenderProgress; 0 means that it
-    /// is not used.
+    /// Limit of ErrorEstimate::relative of the accumulated image; 0 means that it is not used.
     double relativeError = 0.0;
     /// If shouldStop is set, any thread asks it before each tile, and render() asks it before each
     /// pass but the first of the call. If it returns true, no more tiles are begun; the tiles that
@@ -72,11 +72,9 @@ struct RenderProgress
     IntegratorKind integrator = IntegratorKind::Automatic; ///< the integrator that was chosen
     int passes = 0;                                        ///< complete passes
     double seconds = 0.0; ///< time spent in passes since the restart
-    /// Last estimate of sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB, where r is the
-    /// converged image and R is the mean of r over the pixel's tile of 16 x 16: an error in terms
-    /// of the brightness around. The estimate is infinite below 2 passes. It is made after each
-    /// pass if the rule or keepGoing asks for it.
-    double relativeError = std::numeric_limits<double>::infinity();
+    /// Last estimate of the image's error. It is made after each pass if the rule or keepGoing asks
+    /// for it.
+    ErrorEstimate error;
     RayCounts rays;
     uint64_t droppedSamples = 0; ///< samples left out: not finite, or above 1e30
     bool restarted = false;      ///< whether this call began a new image

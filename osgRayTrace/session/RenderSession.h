@@ -80,8 +80,8 @@ public:
     /// Stops a running render() within a tile. Any thread may call it.
     void cancel();
 
-    /// Returns RenderProgress::relativeError of the image as it is, worked out now.
-    double estimateRelativeError() const;
+    /// Returns the error of the image as it is, worked out now.
+    ErrorEstimate estimateError() const;
 
     /// Lets go of the scene and of the image; memory for images is kept.
     void clear();

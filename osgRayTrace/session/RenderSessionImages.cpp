@@ -33,21 +33,9 @@ std::optional<PassContext> SessionState::contextOfSize(int width, int height) co
     return context;
 }
 
-/// Returns the square root of the estimated mean squared relative error.
-double SessionState::estimateError() const
+ErrorEstimate SessionState::estimateError() const
 {
-    if (film.passes() < 2) return std::numeric_limits<double>::infinity();
-    std::vector<Film::ErrorSum> sums(static_cast<std::size_t>(film.tileCount()));
-    workers->forEach(sums.size(), [&](std::size_t tile)
-                     { sums[tile] = film.relativeSquaredError(static_cast<int>(tile)); });
-    double sum = 0.0;
-    int64_t count = 0;
-    for (const Film::ErrorSum& tile : sums)
-    {
-        sum += tile.sum;
-        count += tile.count;
-    }
-    return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+    return engine::estimateError(film, *workers);
 }
 
 /// Writes the image to the display. If over is true, tiles without a pass are left as they are.
@@ -69,7 +57,7 @@ void SessionState::resolveTile(const DisplayTarget& display, int tile) const
     if (display.depth) display.changed->depth[static_cast<std::size_t>(tile)] = 1;
 }
 
-double RenderSession::estimateRelativeError() const
+ErrorEstimate RenderSession::estimateError() const
 {
     return _state->estimateError();
 }

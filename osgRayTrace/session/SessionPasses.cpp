@@ -224,8 +224,8 @@ RenderProgress SessionState::run(const StopRule& rule,
         if (whole) photons.finish(filmScene, context, pass);
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
-        if (wantsError) progress.relativeError = estimateError();
-        if (rule.relativeError > 0.0 && progress.relativeError <= rule.relativeError) break;
+        if (wantsError) progress.error = estimateError();
+        if (rule.relativeError > 0.0 && progress.error.relative <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
     if (display && progress.newTiles > 0 && !shown) resolveRest(*display);

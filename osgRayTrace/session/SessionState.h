@@ -29,7 +29,7 @@ struct SessionState
     bool renderPass(const PassContext& context, const Integrator& integrator, const StopRule& rule,
                     const DisplayTarget* display);
     void preparePhotons(PassContext& context, int pass);
-    double estimateError() const;
+    ErrorEstimate estimateError() const;
     void addTileCounts();
     double imageShare() const;
     bool hasAllDepths() const { return film.passes() > 0 || filmContinues; }

@@ -204,6 +204,9 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(json["buildSeconds"].get<double>() > 0.0);
     CHECK(json["convertSeconds"].get<double>() > 0.0);
     CHECK(json["relativeError"].get<double>() > 0.0);
+    CHECK(json["medianError"].get<double>() > 0.0);
+    CHECK(json["worstErrorShare"].get<double>() > 0.0);
+    CHECK(json["worstErrorShare"].get<double>() < 1.0);
     CHECK(json["conversion"]["converted.area-light"] == 2);
 
     // The memory of photons is stated for all passes that are kept, and for this view.
@@ -223,6 +226,7 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     REQUIRE(osgraytrace(folder, kBox + " --size 8 8 --passes 1 -o x.png --stats s.json").exitCode ==
             0);
     CHECK(statistics(folder)["relativeError"].is_null());
+    CHECK(statistics(folder)["medianError"].is_null());
 }
 
 TEST_CASE("osgraytrace: stops at passes, seconds or error, whichever comes first", "[apps]")

@@ -175,4 +175,11 @@ TEST_CASE("errors are written in percent, and in words from 100 % on", "[apps]")
     CHECK(errorText(0.99) == "99 %");
     CHECK(errorText(0.996) == "100 % or more, mostly noise");
     CHECK(errorText(12.0) == "100 % or more, mostly noise");
+
+    osgRayTrace::Statistics statistics;
+    statistics.relativeError = 0.36;
+    statistics.medianError = 0.029;
+    statistics.worstErrorShare = 0.881;
+    CHECK(estimateText(statistics) ==
+          "36 % (median tile 2.9 %, the worst 0.1 % of the pixels hold 88 % of its square)");
 }

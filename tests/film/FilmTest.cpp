@@ -3,8 +3,9 @@
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
 
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/base/Status.h"
-#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/ErrorEstimate.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -169,9 +170,8 @@ TEST_CASE("film: the error estimate is the true error on average", "[film][stati
                 film.beginPass();
                 film.addPass(0, tile);
             }
-            const Film::ErrorSum error = film.relativeSquaredError(0);
-            REQUIRE(error.count == 3 * kTilePixels);
-            estimated += error.sum / static_cast<double>(error.count);
+            const double error = estimateError(film, Workers(1)).relative;
+            estimated += error * error;
             TileRgba mean;
             film.mean(0, mean);
             for (const RgbaLanes& block : mean)
@@ -201,7 +201,8 @@ TEST_CASE("film: the error estimate leaves out pixels beyond the image", "[film]
         film.beginPass();
         film.addPass(0, tile);
     }
-    const Film::ErrorSum error = film.relativeSquaredError(0);
-    CHECK(error.count == 3 * 6);
-    CHECK(error.sum == 0.0);
+    const ErrorEstimate error = estimateError(film, Workers(1));
+    CHECK(error.relative == 0.0);
+    CHECK(error.median == 0.0);
+    CHECK(error.worstShare == 0.0);
 }

@@ -122,7 +122,7 @@ TEST_CASE("photon passes: PPM antialiases, and its camera paths fill the pixels 
     options.photons = 16;
     s.session.setOptions(options);
     s.passes(4);
-    CHECK(s.session.estimateRelativeError() > 0.05);
+    CHECK(s.session.estimateError().relative > 0.05);
     s.passes(124);
     const std::vector<float> image = s.session.resolveRadiance();
     for (std::size_t x = 0; x < 16; ++x) // the scene's +x is up

@@ -11,7 +11,7 @@ namespace
 {
 
 /// Returns mean((x - r)^2 / (R^2 + 0.01)) over pixels and RGB, where R is the mean of r over the
-/// pixel's tile of 16 x 16: the definition of RenderProgress::relativeError.
+/// pixel's tile of 16 x 16: the definition of ErrorEstimate::relative.
 double relativeSquaredError(const std::vector<float>& image, const std::vector<float>& reference,
                             int size)
 {
@@ -100,7 +100,7 @@ void checkErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKin
             const RenderProgress progress = session.render(rule);
             REQUIRE(progress.passes == passCounts[i]);
             REQUIRE(progress.droppedSamples == 0);
-            const double estimate = session.estimateRelativeError();
+            const double estimate = session.estimateError().relative;
             errors[i].estimated += estimate * estimate / 100.0;
             errors[i].actual +=
                 relativeSquaredError(session.resolveRadiance(), reference.rgba, reference.width) /
@@ -137,7 +137,7 @@ void checkPhotonErrors(const std::shared_ptr<const TracedScene>& traced, Integra
     {
         session.setOptions(options);
         REQUIRE(session.render(rule).passes == passes);
-        const double estimate = session.estimateRelativeError();
+        const double estimate = session.estimateError().relative;
         errors.estimated += estimate * estimate / kSeeds;
         images.push_back(session.resolveRadiance());
         for (std::size_t i = 0; i < sum.size(); ++i)

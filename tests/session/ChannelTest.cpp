@@ -188,7 +188,7 @@ TEST_CASE("channels: the error channel holds the halves' difference", "[session]
         }
     }
     CHECK(std::sqrt(sum / (3.0 * 32 * 32)) ==
-          Approx(session.estimateRelativeError()).epsilon(1e-4));
+          Approx(session.estimateError().relative).epsilon(1e-4));
 }
 
 TEST_CASE("channels: their sizes", "[session]")

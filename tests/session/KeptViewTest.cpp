@@ -137,9 +137,9 @@ TEST_CASE("kept view: frames in which a box moves have a small part of the error
     CHECK(kept < 0.25 * plain);
     CHECK(restarting.share() == 0.0);
     // The estimate is of the new passes alone and never less than the error.
-    CHECK(keeping.tracer.progress().relativeError == std::numeric_limits<double>::infinity());
+    CHECK(keeping.tracer.progress().error.relative == std::numeric_limits<double>::infinity());
     keeping.show();
-    CHECK(keeping.tracer.progress().relativeError >
+    CHECK(keeping.tracer.progress().error.relative >
           std::sqrt(squaredError(keeping.tracer.radiance(), reference)));
 }
 

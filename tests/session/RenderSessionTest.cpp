@@ -100,12 +100,12 @@ TEST_CASE("session: stops at the estimated error that was asked for", "[session]
     const RenderProgress progress = box.session.render(rule,
                                                        [&](const RenderProgress& p)
                                                        {
-                                                           errors.push_back(p.relativeError);
+                                                           errors.push_back(p.error.relative);
                                                            return true;
                                                        });
     CHECK(progress.status.ok());
-    CHECK(progress.relativeError <= 0.12);
-    CHECK(progress.relativeError == box.session.estimateRelativeError());
+    CHECK(progress.error.relative <= 0.12);
+    CHECK(progress.error.relative == box.session.estimateError().relative);
     CHECK(progress.passes > 2);
     CHECK(progress.passes < 4096);
     CHECK(errors.front() ==

@@ -110,7 +110,9 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.lightNote = lightNote(progress.lights);
     if (!statistics.lightNote.empty()) warnOnce(statistics.lightNote);
     statistics.renderSeconds = progress.seconds;
-    statistics.relativeError = progress.relativeError;
+    statistics.relativeError = progress.error.relative;
+    statistics.medianError = progress.error.median;
+    statistics.worstErrorShare = progress.error.worstShare;
     statistics.cameraRays = progress.rays.camera;
     statistics.shadowRays = progress.rays.shadow;
     statistics.secondaryRays = progress.rays.secondary;

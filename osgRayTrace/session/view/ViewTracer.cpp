@@ -166,7 +166,7 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     _part.photonSeconds += result.photonSeconds;
     if (result.restarted && &session == _session.get())
     {
-        _relativeError = std::numeric_limits<double>::infinity();
+        _error = ErrorEstimate();
         _nextEstimate = 2;
     }
     if (result.newTiles == 0) return result;
@@ -196,7 +196,7 @@ void ViewTracer::estimateError()
     const int passes = _session->progress().passes;
     if (passes < 2 || (passes < _nextEstimate && passes < _maxPasses)) return;
     const double start = _now();
-    _relativeError = _session->estimateRelativeError();
+    _error = _session->estimateError();
     _estimateSeconds = _now() - start;
     _nextEstimate = passes + std::max(1, passes / 8);
 }
@@ -220,9 +220,7 @@ ViewProgress ViewTracer::progress() const
     if (!_session) return {};
     ViewProgress progress{image().progress(), {}};
     progress.status = _status;
-    progress.relativeError = _displayState == DisplayState::Whole
-                                 ? _relativeError
-                                 : std::numeric_limits<double>::infinity();
+    progress.error = _displayState == DisplayState::Whole ? _error : ErrorEstimate();
     progress.stages = imageStages().report(image());
     return progress;
 }

@@ -233,7 +233,7 @@ private:
     bool _triedWhole = false; ///< whether beginsWhole() has been true since the view moved
     Status _status;
 
-    double _relativeError = std::numeric_limits<double>::infinity();
+    ErrorEstimate _error;
     int _nextEstimate = 2; ///< passes at which the next estimate is made
     double _estimateSeconds = 0.0;
 

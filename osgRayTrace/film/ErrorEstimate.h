@@ -1,0 +1,34 @@
+// ErrorEstimate.h - how far the accumulated image is from the converged one. Layer: film.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/film/Film.h"
+
+#include <limits>
+
+namespace osgRayTrace::engine
+{
+
+class Workers;
+
+/// The estimate is infinite below two passes. x is the image, r the converged one, and R the mean
+/// of r over the pixels of a tile, channel by channel.
+struct ErrorEstimate
+{
+    /// sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB. R is not known but taken from x;
+    /// the tile has so many samples that this matters only if errors are greater than visible ones.
+    /// A pixel's own r, or that of a block of 4 x 4, would be as noisy as the error at a light's
+    /// edge, and hide most of the error.
+    double relative = std::numeric_limits<double>::infinity();
+    /// The median over tiles with an error of sqrt(mean((x - r)^2 / (max(r, R)^2 + 0.01))): the
+    /// error of most of the image, whatever a few pixels do.
+    double median = std::numeric_limits<double>::infinity();
+    /// The share of the sum behind relative that the worst thousandth of the pixels holds, in
+    /// [0,1]; a pixel at least.
+    double worstShare = 0.0;
+};
+
+/// Returns the estimate for the whole image, from its two halves [Rousselle12, sect. 3].
+ErrorEstimate estimateError(const Film& film, const Workers& workers);
+
+} // namespace osgRayTrace::engine
