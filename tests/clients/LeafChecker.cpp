@@ -5,9 +5,11 @@
 // In the frame OSGRAYTRACE_TEST_FRAMES - 1, a clone of the view's cull visitor runs over the
 // children of each RayTracedScene as if there were no ray tracing. Each leaf of its render stages
 // must be among the leaves of what OSG draws beside the traced picture, or be a use of a geometry
-// that is traced. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
+// that is traced. A fresh conversion must report what the program's own scene reports, whose edits
+// may be of many frames. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 
@@ -201,6 +203,7 @@ struct Tally
 {
     std::size_t leaves = 0, traced = 0, drawn = 0, empty = 0, otherPasses = 0;
     std::vector<std::string> lost;
+    std::vector<std::string> stale; ///< counts of the report that a fresh conversion does not give
 };
 
 struct Found
@@ -294,6 +297,29 @@ void write(const Tally& tally)
          << tally.lost.size() << '\n';
     for (const std::string& name : tally.lost)
         file << "lost-leaf " << name << '\n';
+    file << "stale " << tally.stale.size() << '\n';
+    for (const std::string& count : tally.stale)
+        file << "stale-count " << count << '\n';
+}
+
+/// Returns the counts of a program's scene that differ from those of a fresh conversion, of all
+/// that is drawn: as traced, as left to OSG, or as left out and named.
+std::vector<std::string> staleCounts(const RayTracedScene& scene, const ConversionInput& input)
+{
+    ConversionCounts fresh = SceneConverter().convert(input).counts;
+    ConversionCounts counts = scene.getDrawable()->getStatistics().conversion;
+    std::set<std::string> keys;
+    for (const ConversionCounts* all : {&fresh, &counts})
+        for (const auto& [key, count] : *all)
+            for (const char* prefix : {"converted.geometry", "converted.instance",
+                                       "converted.culled", "traced.", "rasterized.", "not-traced."})
+                if (key.rfind(prefix, 0) == 0) keys.insert(key);
+    std::vector<std::string> stale;
+    for (const std::string& key : keys)
+        if (fresh[key] != counts[key])
+            stale.push_back(key + " " + std::to_string(counts[key]) + " instead of " +
+                            std::to_string(fresh[key]));
+    return stale;
 }
 
 void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
@@ -337,6 +363,7 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
     Tally tally;
     for (const Leaf& leaf : plain)
         judge(leaf, found, tally);
+    tally.stale = staleCounts(scene, input);
     write(tally);
     root->detach();
 }

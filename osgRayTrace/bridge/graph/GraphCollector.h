@@ -72,6 +72,7 @@ public:
     void apply(osg::ProxyNode& node) override;
     void apply(osg::TexGenNode& node) override;
     void apply(osg::Billboard& node) override;
+    void apply(osg::OccluderNode& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
 
