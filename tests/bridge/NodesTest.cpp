@@ -248,6 +248,7 @@ TEST_CASE("nodes: what hides things from a view only hides nothing", "[bridge]")
     const ConversionResult result = convertFrom(viewedFrom(root, {0.0, -50.0, 0.0}));
     CHECK(result.scene->instances.size() == 4);
     CHECK(countOf(result, "approximated.cull-traversal") == 1);
+    CHECK(countOf(result, "approximated.occluder") == 1);
     // The node is behind the eye.
     CHECK(convertFrom(viewedFrom(root, {0.0, 0.0, 9.0}, {0, 1, 0})).scene->instances.size() == 4);
 }

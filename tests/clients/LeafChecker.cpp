@@ -5,9 +5,11 @@
 // In the frame OSGRAYTRACE_TEST_FRAMES - 1, a clone of the view's cull visitor runs over the
 // children of each RayTracedScene as if there were no ray tracing. Each leaf of its render stages
 // must be among the leaves of what OSG draws beside the traced picture, or be a use of a geometry
-// that is traced. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
+// that is traced. A whole conversion must report what the program's own scene reports, whose edits
+// may be of many frames. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 
@@ -201,6 +203,7 @@ struct Tally
 {
     std::size_t leaves = 0, traced = 0, drawn = 0, empty = 0, otherPasses = 0;
     std::vector<std::string> lost;
+    std::vector<std::string> stale; ///< counts of the report that a whole conversion does not give
 };
 
 struct Found
@@ -294,25 +297,74 @@ void write(const Tally& tally)
          << tally.lost.size() << '\n';
     for (const std::string& name : tally.lost)
         file << "lost-leaf " << name << '\n';
+    file << "stale " << tally.stale.size() << '\n';
+    for (const std::string& count : tally.stale)
+        file << "stale-count " << count << '\n';
 }
+
+/// Returns the report of a conversion of the whole scene, by a converter that has seen the images
+/// of earlier frames: textures give them up once they are drawn. It outlives the program's threads.
+ConversionCounts countsOf(const RayTracedScene& scene, const ConversionInput& input)
+{
+    static std::mutex mutex;
+    static auto* converters = new std::map<const RayTracedScene*, SceneConverter>;
+    const std::lock_guard<std::mutex> lock(mutex);
+    return (*converters)[&scene].convert(input).counts;
+}
+
+/// Returns the counts of a program's scene that differ from those of a whole conversion, of all
+/// that is drawn: as traced, as left to OSG, or as left out and named.
+std::vector<std::string> staleCounts(const RayTracedScene& scene, ConversionCounts fresh)
+{
+    ConversionCounts counts = scene.getDrawable()->getStatistics().conversion;
+    std::set<std::string> keys;
+    for (const ConversionCounts* all : {&fresh, &counts})
+        for (const auto& [key, count] : *all)
+            for (const char* prefix : {"converted.geometry", "converted.instance",
+                                       "converted.culled", "traced.", "rasterized.", "not-traced."})
+                if (key.rfind(prefix, 0) == 0) keys.insert(key);
+    std::vector<std::string> stale;
+    for (const std::string& key : keys)
+        if (fresh[key] != counts[key])
+            stale.push_back(key + " " + std::to_string(counts[key]) + " instead of " +
+                            std::to_string(fresh[key]));
+    return stale;
+}
+
+/// Holds what a conversion of a scene needs in a view.
+struct Situation
+{
+    Situation(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
+              const std::set<unsigned int>& masks)
+        : root(new SceneRoot(&scene)), conditions(viewingConditions(visitor))
+    {
+        if (!conditions.view || !visitor.getFrameStamp()) return;
+        conditions.pass = cullPass(visitor, nullptr);
+        isKnown = conditions.pass->isClone;
+        input = inputOf(conditions, masks, *root);
+    }
+    ~Situation() { root->detach(); }
+    Situation(const Situation&) = delete;
+    Situation& operator=(const Situation&) = delete;
+
+    osg::ref_ptr<SceneRoot> root;
+    ViewingConditions conditions;
+    ConversionInput input;
+    bool isKnown = false;
+};
 
 void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
            const std::set<unsigned int>& masks)
 {
-    ViewingConditions conditions = viewingConditions(visitor);
-    if (!conditions.view || !visitor.getFrameStamp()) return;
-    conditions.pass = cullPass(visitor, nullptr);
-    if (!conditions.pass->isClone) return;
-
-    const osg::ref_ptr<SceneRoot> root = new SceneRoot(&scene);
+    Situation now(scene, visitor, masks);
+    if (!now.isKnown) return;
     SoftwareVertices vertices;
     DrawableTriangles triangles;
     const TextureConverter textures;
     RuleCaches rules;
     ConversionReport report;
-    const ConversionInput input = inputOf(conditions, masks, *root);
-    GraphCollector collector(input, vertices, triangles, textures, rules, report);
-    root->accept(collector);
+    GraphCollector collector(now.input, vertices, triangles, textures, rules, report);
+    now.root->accept(collector);
     const CollectedGraph graph = collector.take();
 
     const auto begin = [&](osgUtil::CullVisitor& clone)
@@ -320,25 +372,32 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
         clone.pushOntoNodePath(&scene);
         if (scene.getStateSet()) clone.pushStateSet(scene.getStateSet());
     };
-    const Leaves plain = leavesOf(*conditions.pass, conditions,
+    const Leaves plain = leavesOf(*now.conditions.pass, now.conditions,
                                   [&](osgUtil::CullVisitor& clone)
                                   {
                                       begin(clone);
                                       for (unsigned int i = 0; i < scene.getNumChildren(); ++i)
                                           scene.getChild(i)->accept(clone);
                                   });
-    const Leaves drawn = leavesOf(*conditions.pass, conditions,
+    const Leaves drawn = leavesOf(*now.conditions.pass, now.conditions,
                                   [&](osgUtil::CullVisitor& clone)
                                   {
                                       begin(clone);
                                       cullParts(graph.rasterized, clone);
                                   });
-    const Found found = find(graph, drawn, conditions.view->viewFromWorld);
+    const Found found = find(graph, drawn, now.conditions.view->viewFromWorld);
     Tally tally;
     for (const Leaf& leaf : plain)
         judge(leaf, found, tally);
+    tally.stale = staleCounts(scene, countsOf(scene, now.input));
     write(tally);
-    root->detach();
+}
+
+/// Lets the checker's converter see the images of this frame.
+void watch(RayTracedScene& scene, osgUtil::CullVisitor& visitor)
+{
+    const Situation now(scene, visitor, {visitor.getTraversalMask()});
+    if (now.isKnown) countsOf(scene, now.input);
 }
 
 unsigned int frameToCheck()
@@ -377,7 +436,10 @@ osgRayTrace::RayTracedScene::traverse(osg::NodeVisitor& visitor)
     if (osgUtil::CullVisitor* cull = visitor.asCullVisitor())
     {
         const std::set<unsigned int> masks = masksIfDue(*this, *cull);
-        if (!masks.empty()) check(*this, *cull, masks);
+        if (masks.empty())
+            watch(*this, *cull);
+        else
+            check(*this, *cull, masks);
     }
     traverse(this, visitor);
 }

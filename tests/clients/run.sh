@@ -94,8 +94,15 @@ judge()
         echo "exit code $traced instead of $plain"
     elif [ "${plainFrames:-0}" -lt 1 ] || [ "${plainFrames:-0}" != "${tracedFrames:-0}" ]; then
         echo "${tracedFrames:-0} frames instead of ${plainFrames:-0}"
-    elif [ -e "$WORK/traced.leaves" ] && [ "$(leaves lost)" != 0 ]; then
+    elif [ ! -e "$WORK/traced.leaves" ]; then
+        echo "its leaves were not compared"
+    elif [ "$(leaves lost)" != 0 ]; then
         echo "$(leaves lost) of $(leaves leaves) leaves lost"
+    elif [ "$(leaves stale)" != 0 ]; then
+        echo "$(leaves stale) counts of its report are stale"
+    elif [ $(($(leaves traced) + $(leaves drawn) + $(leaves empty) + $(leaves other-passes))) != \
+        "$(leaves leaves)" ]; then
+        echo "its leaves do not add up"
     elif [ "$(grep -c '^osgRayTrace:' "$WORK/traced.log")" -gt $LOG_LINES ]; then
         echo "$(grep -c '^osgRayTrace:' "$WORK/traced.log") lines of ours in its log"
     elif [ -z "$difference" ]; then

@@ -166,11 +166,20 @@ public:
         visitor.popFromNodePath();
         visitor.popFromNodePath();
     }
-    osg::BoundingBox computeBoundingBox() const override { return {-3, -3, -3, 3, 3, 3}; }
+    osg::BoundingBox computeBoundingBox() const override
+    {
+        const osg::Vec3 reach(3.0f, 3.0f, 3.0f);
+        return {shift - reach, shift + reach};
+    }
     bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     void accept(osg::PrimitiveFunctor& functor) const override { chosen().accept(functor); }
     osg::Geometry& chosen() const { return pose(_frame); }
     osg::Geometry& pose(unsigned int frame) const { return *_poses[frame % 2]; }
+    void bend(const osg::Vec3& to)
+    {
+        shift = to;
+        dirtyBound();
+    }
 
     osg::Vec3 shift; ///< moves all vertices
     bool hidden = false;

@@ -184,4 +184,5 @@ TEST_CASE("pager: pages settle and expire below a traced scene as without it", "
     const std::set<std::string> pages = traced.settle(far, osg::Vec3d());
     CAPTURE(most, kept.size());
     CHECK(pages.size() == kept.size());
+    CHECK(kept.size() < most); // pages have expired
 }

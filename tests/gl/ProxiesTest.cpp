@@ -1,5 +1,6 @@
 // ProxiesTest.cpp - what OSG draws casts shadows and stands in mirrors. Layer: tests.
 // SPDX-License-Identifier: MIT
+#include "CullNodes.h"
 #include "TestViewer.h"
 #include "tests/Catch.h"
 
@@ -13,6 +14,7 @@
 #include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <optional>
 
@@ -218,6 +220,43 @@ TEST_CASE("proxies: a drawable of another class that tells its triangles casts a
     Stage stage(new ForeignBox);
     StageView view(stage);
     checkShadow(view, kBox, "proxy-foreign");
+}
+
+TEST_CASE("proxies: what a captured subtree leaves to OSG casts its shadow", "[gl][cull]")
+{
+    osg::ref_ptr<osg::Drawable> drawn = box();
+    SECTION("a box that a shader draws") {}
+    SECTION("a rig")
+    {
+        const osg::ref_ptr<osg::ShapeDrawable> shape = box();
+        drawn = new application::RigDrawable(*shape);
+    }
+    SECTION("a drawable of another class")
+    {
+        drawn = new ForeignBox;
+    }
+    Stage stage(drawn);
+    std::array<osg::ref_ptr<osg::StateSet>, 2> pushed;
+    for (osg::ref_ptr<osg::StateSet>& state : pushed)
+    {
+        state = new osg::StateSet;
+        state->addUniform(new osg::Uniform("time", float(&state - pushed.data())));
+    }
+    stage.place->setCullCallback(new application::StatePusher(pushed[0], pushed[1]));
+    StageView view(stage);
+    checkShadow(view, kBox, "proxy-captured");
+    CHECK(view.statistics().conversion.at("rasterized.cull-callback") == 1);
+    CHECK(view.statistics().conversion.at("traced.proxy") == 1);
+
+    const uint64_t conversions = view.statistics().conversions;
+    const osg::Vec3d other(-0.8, -0.5, 1.5);
+    stage.place->setMatrix(osg::Matrix::translate(other));
+    checkShadow(view, other, "proxy-captured-moved");
+    CHECK(view.statistics().conversions == conversions);
+
+    stage.place->setMatrix(osg::Matrix::translate(kBox));
+    RayTracedScene::setHint(stage.place, RayTracedScene::RASTERIZE_ONLY);
+    checkNoShadow(view, "proxy-captured-rasterize-only");
 }
 
 TEST_CASE("proxies: the dome of a sky with a program leaves the floor its light", "[gl]")

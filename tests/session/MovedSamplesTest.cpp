@@ -41,6 +41,23 @@ std::shared_ptr<Scene> turned(const Yard& yard, float angle)
     return scene;
 }
 
+/// Returns the yard with a box whose colour goes from dark to bright along its way.
+Yard shadedYard()
+{
+    Yard yard;
+    const Instance& box = yard.builder.scene->instances[yard.box];
+    auto mesh = std::make_shared<Mesh>(*yard.builder.scene->meshes[box.mesh]);
+    std::vector<Vec4> colors;
+    for (const Vec3& p : mesh->positions)
+        colors.push_back(Vec4(Vec3(0.55f + 0.45f * p.x), 1.0f));
+    mesh->colors = SharedArray<Vec4>(std::move(colors));
+    yard.builder.scene->meshes[box.mesh] = mesh;
+    auto detail = std::make_shared<MaterialDetail>();
+    detail->vertexColors = true;
+    yard.builder.scene->materials[box.material].detail = detail;
+    return yard;
+}
+
 double squaredErrorOf(const std::vector<float>& picture, const std::vector<float>& reference,
                       const std::vector<uint8_t>& marks)
 {
@@ -264,4 +281,116 @@ TEST_CASE("moved samples: at rest the image becomes that of a fresh start", "[se
     for (int pass = 2; pass <= 17; ++pass)
         picture = watcher.show(view);
     CHECK(followed(picture, fresh(last, 9, 17, view)) == 0);
+}
+
+TEST_CASE("moved samples: a lamp's place is that of its mesh, after it has moved, too", "[session]")
+{
+    Yard yard;
+    Light lamp;
+    lamp.kind = LightKind::Mesh;
+    lamp.instance = yard.box;
+    lamp.changed = 1;
+    LampPlaces places;
+    const auto placeAt = [&](float x, Stamp changed)
+    {
+        lamp.changed = changed;
+        const std::vector<Vec3> found = places.of({lamp}, *yard.at(x));
+        REQUIRE(found.size() == 1);
+        return found[0];
+    };
+    CHECK(glm::length(placeAt(0.0f, 1) - Vec3(0, 0, 1)) < 1e-5f);
+    CHECK(glm::length(placeAt(0.0f, 1) - Vec3(0, 0, 1)) < 1e-5f);
+    CHECK(glm::length(placeAt(3.0f, 2) - Vec3(3, 0, 1)) < 1e-5f);
+    yard.builder.scene->meshes[yard.builder.scene->instances[yard.box].mesh] =
+        std::make_shared<Mesh>(*boxMesh({-1, -1, 0}, {1, 1, 4}));
+    CHECK(glm::length(placeAt(3.0f, 2) - Vec3(3, 0, 2)) < 1e-5f);
+}
+
+TEST_CASE("moved samples: what carry may set is told before", "[session]")
+{
+    // The box fills much of the view, leaves it, or is a mirror.
+    const View view = perspectiveView({0, -6, 2}, {0, 0, 1}, {0, 0, 1}, 40.0, kWidth, kHeight);
+    const auto tellOf = [&](const Yard& yard, float from, float to)
+    {
+        const auto before = yard.at(from), after = yard.at(to);
+        const auto change = sceneChange(*before, *after);
+        REQUIRE(change);
+        const auto workers = std::make_shared<Workers>(1);
+        RenderSession session(workers);
+        session.setScene(traced(before));
+        session.setView(view);
+        StopRule rule;
+        rule.passes = 1;
+        session.render(rule);
+        SampledImage image;
+        image.width = kWidth;
+        image.height = kHeight;
+        image.radiance.assign(4u * kWidth * kHeight, 0.5f);
+        image.count.assign(std::size_t(kWidth) * kHeight, 1.0f);
+        MovedSamples moved;
+        moved.take(session.firstSurfaces(), *before, before->lights, *change, image, *workers);
+        return moved.pixels();
+    };
+    const Yard plain;
+    const std::vector<uint8_t> seen = pixelsOf(plain.box, plain.at(0.0f), view);
+    const auto box = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), uint8_t(1)));
+    REQUIRE(box > 300);
+    CHECK(std::abs(double(tellOf(plain, 0.0f, 0.06f)) - double(box)) < 0.1 * double(box));
+    CHECK(tellOf(plain, 1.0f, 4.4f) < 3 * box / 4); // most of it is then beyond the border
+    CHECK(tellOf(plain, 9.0f, 9.06f) == 0);         // it is off the screen
+    CHECK(tellOf(plain, 2.2f, 5.6f) == 0);
+    Yard mirrored;
+    mirrored.builder.scene->materials[mirrored.builder.scene->instances[mirrored.box].material] =
+        mirror(Vec3(0.9f));
+    CHECK(tellOf(mirrored, 0.0f, 0.06f) == 0);
+}
+
+TEST_CASE("moved samples: no ghosts of other places are on the box", "[session][statistics]")
+{
+    // The means of sixteen ways are compared pixel by pixel where the box and no edge is seen. The
+    // box is bright on one side and dark on the other: it shows which place a sample comes from. A
+    // pixel is wrong if its mean is off by a tenth and four standard errors more.
+    const Yard yard = shadedYard();
+    const View view = nearView();
+    const auto sceneAt = [&](int frame) { return yard.at(0.06f * static_cast<float>(frame)); };
+    constexpr int kLast = 8;
+    std::vector<uint8_t> box = pixelsOf(yard.box, sceneAt(kLast), view);
+    const std::vector<float> reference = fresh(sceneAt(kLast), 99, 512, view);
+    std::vector<Estimate> means(box.size());
+    for (unsigned seed = 0; seed < 16; ++seed)
+    {
+        Watcher watcher(traced(sceneAt(0)), true, seed);
+        std::vector<float> picture;
+        for (int frame = 0; frame <= kLast; ++frame)
+        {
+            watcher.inputs.scene = traced(sceneAt(frame));
+            picture = watcher.show(view);
+        }
+        for (std::size_t i = 0; i < box.size(); ++i)
+            means[i].add(double(brightness(picture, i)));
+    }
+    int examined = 0, ghosts = 0;
+    const auto isInside = [&](std::size_t i)
+    {
+        bool inside = true;
+        for (const int dy : {-1, 0, 1})
+            for (const int dx : {-1, 0, 1})
+            {
+                const std::size_t other = i + std::size_t(dx + dy * kWidth);
+                const float ratio = brightness(reference, other) / brightness(reference, i);
+                inside = inside && box[other] && ratio > 0.8f && ratio < 1.25f;
+            }
+        return inside;
+    };
+    for (std::size_t i = kWidth + 1; i + kWidth + 1 < box.size(); ++i)
+    {
+        if (!box[i] || !isInside(i)) continue;
+        ++examined;
+        const double wanted = double(brightness(reference, i));
+        ghosts +=
+            std::abs(means[i].mean() - wanted) > 0.1 * wanted + 4.0 * means[i].standardError();
+    }
+    CAPTURE(examined, ghosts);
+    CHECK(examined > 100);
+    CHECK(ghosts == 0);
 }

@@ -9,7 +9,14 @@
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 
+#include <osgRayTrace/AreaLight>
+#include <osgRayTrace/EnvironmentLight>
+
+#include <osg/ClearNode>
+#include <osg/ClipNode>
+#include <osg/LightSource>
 #include <osg/NodeVisitor>
+#include <osg/TexGenNode>
 
 #include <algorithm>
 
@@ -36,6 +43,29 @@ osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
         osg::Node* found = nullptr;
     } finder;
     finder.setTraversalMask(traversalMask);
+    node.accept(finder);
+    return finder.found;
+}
+
+/// Returns whether a node or one below it is a light or places state for others.
+bool hasSpecialNodes(osg::Node& node)
+{
+    struct Finder : osg::NodeVisitor
+    {
+        Finder() : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN) {}
+        void apply(osg::Node& visited) override
+        {
+            found = found || dynamic_cast<AreaLight*>(&visited) ||
+                    dynamic_cast<EnvironmentLight*>(&visited);
+            if (!found) traverse(visited);
+        }
+        void apply(osg::LightSource&) override { found = true; }
+        void apply(osg::ClipNode&) override { found = true; }
+        void apply(osg::TexGenNode&) override { found = true; }
+        void apply(osg::ClearNode&) override { found = true; }
+        void apply(osg::Drawable&) override {}
+        bool found = false;
+    } finder;
     node.accept(finder);
     return finder.found;
 }
@@ -127,10 +157,12 @@ void GraphWatch::takeVersions(WatchedGraph& before)
     }
 }
 
-GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions)
+GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions,
+                              const std::unordered_set<const osg::Node*>& captured)
 {
     GraphChanges changes;
     _root = &root;
+    _captured = &captured;
     ConversionCause notComparable = ConversionCause::None;
     if (!_recorded)
         notComparable = ConversionCause::NotWatched;
@@ -236,10 +268,21 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
     return node.repeated || nodeHash(node.kind, *node.node) == node.hash;
 }
 
+/// Returns whether somebody else follows what an untracked node shows: it is or lies below a
+/// captured node, and has none of the nodes that cull traversals do not tell of.
+bool GraphWatch::isFollowed(const WatchedNode& node) const
+{
+    if (_captured->empty() || !_plain.viewMasks.empty()) return false;
+    for (const WatchedNode* on = &node; !_captured->count(on->node); on = &_graph.nodes[on->parent])
+        if (on->parent == kNowhere) return false;
+    return !hasSpecialNodes(*node.node);
+}
+
 /// Returns whether an untracked node is unchanged. If only modified counts differ, the values of
 /// the arrays decide.
 bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
 {
+    if (isFollowed(node) && node.hint == hintHash(*node.node)) return true;
     UntrackedNode& untracked = _graph.untrackedNodes[node.item];
     PathBudget budget(untracked.budget), again(untracked.budget);
     const uint64_t hash =

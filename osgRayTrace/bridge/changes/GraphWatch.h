@@ -7,6 +7,8 @@
 #include "osgRayTrace/bridge/changes/WatchedGraph.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 
+#include <unordered_set>
+
 namespace osgRayTrace::engine
 {
 
@@ -32,7 +34,9 @@ public:
 
     /// Returns what has changed in the graph below the same root since the last look or record(),
     /// under conditions that differ at most in the eye, the view, the inherited state and reads.
-    GraphChanges look(osg::Node& root, const ViewingConditions& conditions);
+    /// captured: nodes at and below which others follow what nodes of unknown classes show.
+    GraphChanges look(osg::Node& root, const ViewingConditions& conditions,
+                      const std::unordered_set<const osg::Node*>& captured = {});
 
     /// Returns the path that the geometry had at the last look, for messages, or the name of the
     /// geometry alone if there is no such path. ChangedUse documents the parameter use.
@@ -49,6 +53,7 @@ private:
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
     bool isUntrackedAsItWas(WatchedNode& node);
+    bool isFollowed(const WatchedNode& node) const;
     bool redo(uint32_t index, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);
@@ -74,6 +79,7 @@ private:
 
     // These members serve a look while it runs:
     osg::Node* _root = nullptr;
+    const std::unordered_set<const osg::Node*>* _captured = nullptr;
     bool _anyMoved = false, _anyStateChanged = false;
     std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
 };

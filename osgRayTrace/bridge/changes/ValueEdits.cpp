@@ -123,11 +123,18 @@ void GraphWatch::findChanged(GraphChanges& changes)
         bool stateChanged = i < stateChangedEnd;
         if (stateChanged && node.kind == NodeKind::Untracked)
             mustConvert(changes, ConversionCause::UntrackedState, i);
+        const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
+        if (moved && node.kind == NodeKind::Untracked)
+        {
+            _graph.untrackedNodes[node.item].sceneFromLocal = matrixOf(node.place);
+            if (!isFollowed(node))
+                mustRecord(changes, ConversionCause::MovedSpecial,
+                           _graph.places[_graph.outermostMoved(node.place)].node);
+        }
         if (node.kind != NodeKind::Geometry) continue;
         WatchedGeometry& watched = _graph.geometries[node.item];
         stateChanged |= watched.stateChanged;
         const ChangedUse use{watched.geometry, watched.counted++, watched.uses};
-        const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
         if (changes.convert) continue;
         if (moved) changes.moved.push_back({use, matrixOf(node.place)});
         if (!stateChanged) continue;

@@ -171,7 +171,6 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
 void WatchedGraph::appendUntracked(WatchedNode entry, const osg::Matrixd& sceneFromParent,
                                    const ViewingConditions& conditions)
 {
-    fix(entry.place);
     entry.item = static_cast<uint32_t>(untrackedNodes.size());
     UntrackedNode& untracked = untrackedNodes.emplace_back();
     untracked.sceneFromLocal = sceneFromParent;
@@ -359,6 +358,14 @@ osg::Matrixd WatchedGraph::sceneFromLocal(uint32_t place) const
     for (auto transform = transforms.rbegin(); transform != transforms.rend(); ++transform)
         (*transform)->computeLocalToWorldMatrix(matrix, nullptr);
     return matrix;
+}
+
+uint32_t WatchedGraph::outermostMoved(uint32_t place) const
+{
+    uint32_t outermost = place;
+    for (; place != kNowhere; place = outerPlace(place))
+        if (places[place].moved) outermost = place;
+    return outermost;
 }
 
 osg::NodePath WatchedGraph::pathTo(uint32_t node) const

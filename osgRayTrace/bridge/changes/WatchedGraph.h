@@ -172,6 +172,10 @@ struct WatchedGraph
     void resetBuffers(const std::vector<uint32_t>& exchanged);
 
     osg::Matrixd sceneFromLocal(uint32_t place) const;
+
+    /// Returns the outermost of the places around a place, and that place, that have moved.
+    uint32_t outermostMoved(uint32_t place) const;
+
     osg::NodePath pathTo(uint32_t node) const;
 
     /// Forgets the list of nodes that came before, which only append() needs.

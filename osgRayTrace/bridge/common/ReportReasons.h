@@ -119,6 +119,7 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.logic-operation", "drawables with a logic operation, which is not done"},
     {"approximated.no-texture-coordinates",
      "textured or anisotropic materials without texture coordinates"},
+    {"approximated.occluder", "occluders, which hide nothing"},
     {"approximated.pixel-format", "textures whose pixels cannot be read: magenta"},
     {"approximated.polygon-mode", "drawables of lines or points by their polygon mode, filled"},
     {"approximated.polygon-offset",

@@ -4,10 +4,12 @@
 
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/geometry/BufferHashes.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 namespace osgRayTrace::engine
@@ -21,6 +23,34 @@ constexpr std::size_t kDrawablesALook = 1000;
 constexpr std::size_t kDrawablesASubtree = 4;
 /// In one of so many rounds, places are compared where nothing was added, not only drawables.
 constexpr std::size_t kRoundsByDrawables = 16;
+
+/// Returns a hash of what of a drawable is no part of its shape: a patch cannot redo it.
+uint64_t attributesHash(const osg::Drawable& drawable)
+{
+    Hasher hasher;
+    hasher.add(drawable.getDrawCallback() != nullptr, drawable.getDataVariance());
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry) return hasher.value();
+    forEachBuffer(*geometry, true,
+                  [&hasher](const osg::BufferData* data, bool shape)
+                  {
+                      hasher.add(data != nullptr);
+                      if (data && !shape) hasher.add(bufferHash(bufferKindOf(*data), *data));
+                  });
+    return hasher.value();
+}
+
+/// Returns the part of the scene that each leaf has become, by its number.
+std::unordered_map<uint32_t, ChangedUse> usesOf(const CollectedGraph& graph)
+{
+    std::unordered_map<uint32_t, ChangedUse> uses;
+    for (const CollectedGeometry& geometry : graph.geometries)
+        for (std::size_t i = 0; i < geometry.uses.size(); ++i)
+            if (geometry.uses[i].culled != kNoCulledLeaf)
+                uses[geometry.uses[i].culled] = {geometry.geometry.get(), static_cast<uint32_t>(i),
+                                                 static_cast<uint32_t>(geometry.uses.size())};
+    return uses;
+}
 
 } // namespace
 
@@ -36,72 +66,115 @@ uint64_t CullWatch::hashOf(osg::Drawable& drawable) const
     return graphHash(drawable, _plain);
 }
 
-/// Returns whether a state set has the values that another one had when it was converted. Callbacks
-/// may take turns with two state sets of the same values.
-bool CullWatch::sameValues(const osg::StateSet& before, uint64_t hashBefore,
-                           const osg::StateSet& now) const
+/// Returns whether the state of a leaf has the values that it had when it was converted. Callbacks
+/// may take turns with two state sets of the same values. What OSG draws may get other state sets
+/// in each frame, for its programs: its proxy keeps the material that it has.
+bool CullWatch::sameStates(const CulledLeaf& before, const WatchedLeaf& values,
+                           const CulledLeaf& now) const
 {
-    if (hashOf(before) != hashBefore) return false;
-    return &before == &now || before.compare(now, true) == 0;
-}
-
-CullWatch::LeafValues CullWatch::valuesOf(const CapturedLeaf& leaf) const
-{
-    LeafValues values;
-    for (const osg::ref_ptr<const osg::StateSet>& stateSet : leaf.states)
-        values.states.push_back(hashOf(*stateSet));
-    values.content = hashOf(*leaf.drawable);
-    return values;
-}
-
-void CullWatch::record(std::vector<CullOutcome> outcomes, bool unknown,
-                       std::shared_ptr<const ShaderReads> reads)
-{
-    _plain.reads = std::move(reads);
-    _watched.clear();
-    _unknown = unknown;
-    _next = _credit = 0;
-    _plainAbove = nullptr;
-    for (CullOutcome& outcome : outcomes)
+    if (before.states.size() != now.states.size()) return false;
+    for (std::size_t i = 0; i < now.states.size(); ++i)
     {
-        Watched& watched = _watched.emplace_back();
-        for (const CapturedLeaf& leaf : outcome.traced)
-            watched.values.push_back(valuesOf(leaf));
-        watched.outcome = std::move(outcome);
-    }
-}
-
-bool CullWatch::isSame(const Watched& before, const CullOutcome& now, double eyeDistance) const
-{
-    const CullOutcome& then = before.outcome;
-    if (now.kind != then.kind || now.isDrawn() != then.isDrawn() ||
-        now.traced.size() != then.traced.size())
-        return false;
-    for (std::size_t i = 0; i < now.traced.size(); ++i)
-    {
-        const CapturedLeaf &leaf = now.traced[i], &last = then.traced[i];
-        const LeafValues& values = before.values[i];
-        if (leaf.drawable != last.drawable || leaf.states.size() != last.states.size() ||
-            !sameMatrix(leaf.worldFromLocal, last.worldFromLocal, eyeDistance) ||
-            hashOf(*leaf.drawable) != values.content)
-            return false;
-        for (std::size_t s = 0; s < leaf.states.size(); ++s)
-            if (!sameValues(*last.states[s], values.states[s], *leaf.states[s])) return false;
+        const osg::StateSet &then = *before.states[i], &stateSet = *now.states[i];
+        if (now.proxy && &then != &stateSet) continue;
+        if (hashOf(then) != values.states[i]) return false;
+        if (&then != &stateSet && then.compare(stateSet, true) != 0) return false;
     }
     return true;
 }
 
-bool CullWatch::holds(const ConversionInput& input, const Caches& caches)
+CullWatch::WatchedLeaf CullWatch::valuesOf(const CulledLeaf& leaf) const
 {
-    if (!input.pass || !input.view) return true;
-    if (_unknown) return false;
+    WatchedLeaf values;
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : leaf.states)
+        values.states.push_back(hashOf(*stateSet));
+    values.content = hashOf(*leaf.drawable);
+    values.attributes = attributesHash(*leaf.drawable);
+    return values;
+}
+
+void CullWatch::record(CollectedGraph& graph, std::shared_ptr<const ShaderReads> reads)
+{
+    _plain.reads = std::move(reads);
+    _watched.clear();
+    _captured.clear();
+    _unknown = graph.cullUnknown;
+    _next = _credit = 0;
+    _plainAbove = nullptr;
+    const std::unordered_map<uint32_t, ChangedUse> uses = usesOf(graph);
+    for (CullOutcome& outcome : graph.cullOutcomes)
+    {
+        Watched& watched = _watched.emplace_back();
+        watched.drawn = outcome.isDrawn();
+        if (outcome.kind == CullOutcome::Captured) _captured.insert(outcome.path.back());
+        for (CulledLeaf& leaf : std::exchange(outcome.leaves, {}))
+        {
+            if (!leaf.isInScene()) continue;
+            WatchedLeaf& values = watched.values.emplace_back(valuesOf(leaf));
+            const auto use = uses.find(leaf.number);
+            if (use != uses.end()) values.use = use->second;
+            watched.leaves.push_back(std::move(leaf));
+        }
+        watched.outcome = std::move(outcome);
+    }
+    graph.cullOutcomes.clear();
+}
+
+/// Finds what differs in a leaf. Returns false if the graph must be converted.
+bool CullWatch::compare(CulledLeaf& before, WatchedLeaf& values, const CulledLeaf& now,
+                        double eyeDistance, CullChanges& changes) const
+{
+    if (now.drawable != before.drawable || now.proxy != before.proxy) return false;
+    if (now.proxy && !values.use.geometry) return true; // it encloses the scene
+    if (!sameStates(before, values, now)) return false;
+    if (!sameMatrix(now.worldFromLocal, before.worldFromLocal, eyeDistance))
+    {
+        if (!values.use.geometry) return false;
+        changes.moved.push_back({values.use, now.worldFromLocal});
+        before.worldFromLocal = now.worldFromLocal;
+    }
+    const uint64_t content = hashOf(*now.drawable);
+    if (content == values.content) return true;
+    values.content = content;
+    // Other geometries than the drawable itself are made in conversions alone.
+    if (values.use.geometry != now.drawable || attributesHash(*now.drawable) != values.attributes)
+        return false;
+    changes.deformed.push_back(values.use.geometry);
+    return true;
+}
+
+/// Finds what differs in the leaves of a subtree. Returns false if the graph must be converted.
+bool CullWatch::compare(Watched& before, CullOutcome& now, double eyeDistance,
+                        CullChanges& changes) const
+{
+    if (now.kind != before.outcome.kind || now.isDrawn() != before.drawn) return false;
+    std::size_t count = 0;
+    for (const CulledLeaf& leaf : now.leaves)
+    {
+        if (!leaf.isInScene()) continue;
+        if (count == before.leaves.size() ||
+            !compare(before.leaves[count], before.values[count], leaf, eyeDistance, changes))
+            return false;
+        ++count;
+    }
+    return count == before.leaves.size();
+}
+
+CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
+{
+    CullChanges changes;
+    if (!input.pass || !input.view) return changes;
+    changes.holds = !_unknown;
+    if (_unknown) return changes;
     _credit += kDrawablesALook;
     for (std::size_t count = 0; count < _watched.size(); ++count)
     {
         Watched& watched = _watched[_next];
         const std::size_t cost = kDrawablesASubtree + watched.outcome.captured;
-        if (cost > _credit) return true;
-        if (!holds(watched, input, caches)) return false;
+        changes.complete = cost <= _credit;
+        if (!changes.complete) return changes;
+        changes.holds = lookAt(watched, input, caches, changes);
+        if (!changes.holds) return changes;
         _credit -= cost;
         _next = (_next + 1) % _watched.size();
         if (_next > 0) continue;
@@ -109,10 +182,12 @@ bool CullWatch::holds(const ConversionInput& input, const Caches& caches)
         ++_rounds;
     }
     _credit = 0;
-    return true;
+    return changes;
 }
 
-bool CullWatch::holds(Watched& watched, const ConversionInput& input, const Caches& caches)
+/// Returns false if the graph must be converted.
+bool CullWatch::lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
+                       CullChanges& changes)
 {
     const CullOutcome& then = watched.outcome;
     if (then.kind == CullOutcome::Left || isInPlain(then)) return true;
@@ -131,10 +206,9 @@ bool CullWatch::holds(Watched& watched, const ConversionInput& input, const Cach
     }
     GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
                              caches.rules, unused);
-    const std::optional<CullOutcome> now =
-        collector.cullOutcomeAt(then.path, watched.outcome.answers);
+    std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path, watched.outcome.answers);
     unused.setPlace({});
-    if (!now || !isSame(watched, *now, input.eye.length())) return false;
+    if (!now || !compare(watched, *now, input.eye.length(), changes)) return false;
     watched.outcome.signature = now->signature;
     return true;
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/changes/GraphChanges.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/CullOutcome.h"
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
@@ -12,11 +14,20 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
+
+/// Lists what cull traversals show otherwise than it was converted.
+struct CullChanges
+{
+    bool holds = true;    ///< false: the graph must be converted again
+    bool complete = true; ///< false: the look has left out subtrees
+    std::vector<MovedUse> moved;
+    std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives
+};
 
 /// Holds the decisions on the subtrees that may draw in cull alone, and repeats them.
 class CullWatch
@@ -31,44 +42,55 @@ public:
         RuleCaches& rules;
     };
 
-    /// unknown: there was such a subtree, but no view. reads is as in ViewingConditions.
-    void record(std::vector<CullOutcome> outcomes, bool unknown,
-                std::shared_ptr<const ShaderReads> reads);
+    /// Takes the outcomes of the graph, after all that is not traced has been dropped from its
+    /// geometries. reads is as in ViewingConditions.
+    void record(CollectedGraph& graph, std::shared_ptr<const ShaderReads> reads);
 
     bool isEmpty() const { return _watched.empty() && !_unknown; }
 
-    /// Decides again, under the present conditions of the input. Returns whether the outcomes are
-    /// the same. A call looks at about 1000 drawables, the next one at those that follow. Nodes and
-    /// callbacks of the application's run.
-    bool holds(const ConversionInput& input, const Caches& caches);
+    /// Decides again, under the present conditions of the input. A call looks at about 1000
+    /// drawables, the next one at those that follow. Nodes and callbacks of the application's run.
+    /// The changes count as made, so they must be, or the graph must be converted.
+    CullChanges look(const ConversionInput& input, const Caches& caches);
+
+    /// Returns the nodes whose cull traversal stands for what is below.
+    const std::unordered_set<const osg::Node*>& captured() const { return _captured; }
 
     /// Returns whether a path leads through a node whose cull traversal stands for what is below.
     bool covers(const osg::NodePath& path) const;
 
 private:
-    /// Holds hashes of the values of a traced leaf as it was converted.
-    struct LeafValues
+    /// Holds a leaf that is in the traced scene, as it was converted.
+    struct WatchedLeaf
     {
-        std::vector<uint64_t> states;
-        uint64_t content = 0;
+        ChangedUse use;               ///< its part in the scene; without a geometry there is none
+        std::vector<uint64_t> states; ///< hashes of the values of its state sets
+        uint64_t content = 0;         ///< hash of the drawable
+        uint64_t attributes = 0;      ///< hash of what of the drawable is no part of its shape
     };
 
     struct Watched
     {
-        CullOutcome outcome;
-        std::vector<LeafValues> values; ///< of the outcome's traced leaves
+        CullOutcome outcome;             ///< without leaves
+        bool drawn = false;              ///< CullOutcome::isDrawn()
+        std::vector<CulledLeaf> leaves;  ///< those in the scene
+        std::vector<WatchedLeaf> values; ///< of those leaves
     };
 
-    bool holds(Watched& watched, const ConversionInput& input, const Caches& caches);
+    bool lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
+                CullChanges& changes);
     bool isInPlain(const CullOutcome& outcome) const;
     uint64_t hashOf(const osg::StateSet& stateSet) const;
     uint64_t hashOf(osg::Drawable& drawable) const;
-    LeafValues valuesOf(const CapturedLeaf& leaf) const;
-    bool sameValues(const osg::StateSet& before, uint64_t hashBefore,
-                    const osg::StateSet& now) const;
-    bool isSame(const Watched& before, const CullOutcome& now, double eyeDistance) const;
+    WatchedLeaf valuesOf(const CulledLeaf& leaf) const;
+    bool sameStates(const CulledLeaf& before, const WatchedLeaf& values,
+                    const CulledLeaf& now) const;
+    bool compare(Watched& before, CullOutcome& now, double eyeDistance, CullChanges& changes) const;
+    bool compare(CulledLeaf& before, WatchedLeaf& values, const CulledLeaf& now, double eyeDistance,
+                 CullChanges& changes) const;
 
     std::vector<Watched> _watched;
+    std::unordered_set<const osg::Node*> _captured;
     ViewingConditions _plain; ///< conditions of hashes of single drawables: reads alone
     bool _unknown = false;
     std::size_t _next = 0;   ///< index of the subtree to look at

@@ -209,7 +209,8 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     warnIfCoarse(geometry);
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     // The index holds only one of a geometry that was collected for two primitive restarts.
-    traced.patchable = traced.uses.empty() && geometry.watched;
+    traced.culled = traced.uses.empty() && geometry.isCulled();
+    traced.patchable = traced.culled || (traced.uses.empty() && geometry.watched);
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)

@@ -111,19 +111,43 @@ void SceneConverter::forget()
     _implementation->caches = ConversionCaches();
 }
 
-bool SceneConverter::holdsInCull(const ViewingConditions& conditions)
+CullChanges SceneConverter::lookInCull(const ViewingConditions& conditions)
 {
     const ThreadSeam::Entry inside(_implementation->seam);
     Implementation& state = *_implementation;
     CullWatch& watch = state.convertedGraph.cullWatch;
-    if (watch.isEmpty()) return true;
+    if (watch.isEmpty()) return {};
     ConversionInput input = state.input;
     input.eye = conditions.eye;
     input.view = conditions.view;
     input.pass = conditions.pass;
     input.inheritedState = conditions.inheritedState;
     ConversionCaches& caches = state.caches;
-    return watch.holds(input, {caches.vertices, caches.triangles, caches.textures, caches.rules});
+    return watch.look(input, {caches.vertices, caches.triangles, caches.textures, caches.rules});
+}
+
+const std::unordered_set<const osg::Node*>& SceneConverter::captured() const
+{
+    return _implementation->convertedGraph.cullWatch.captured();
+}
+
+void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& changes) const
+{
+    const SceneIndex& index = _implementation->convertedGraph.index;
+    const auto isFollowed = [&](const osg::Geometry* geometry)
+    { return index.isFollowedInCull(*geometry, cull.complete); };
+    changes.moved.erase(std::remove_if(changes.moved.begin(), changes.moved.end(),
+                                       [&](const MovedUse& use)
+                                       { return isFollowed(use.geometry); }),
+                        changes.moved.end());
+    changes.deformed.erase(
+        std::remove_if(changes.deformed.begin(), changes.deformed.end(), isFollowed),
+        changes.deformed.end());
+    changes.moved.insert(changes.moved.end(), cull.moved.begin(), cull.moved.end());
+    changes.deformed.insert(changes.deformed.end(), cull.deformed.begin(), cull.deformed.end());
+    if (cull.holds || changes.convert) return;
+    changes.convert = true;
+    changes.reason.cause = ConversionCause::CullTraversal;
 }
 
 uint64_t SceneConverter::convertedMeshes() const
@@ -175,7 +199,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.lights = std::move(graph.lights);
     state.convertedGraph.lightCounts = lightReport.counts();
     state.convertedGraph.texGens = graph.texGens;
-    state.convertedGraph.cullWatch.record(std::move(graph.cullOutcomes), graph.cullUnknown,
+    state.convertedGraph.cullWatch.record(graph,
                                           input.materials ? input.materials->reads : nullptr);
     state.convertedGraph.index.addUntraced(graph.rasterized, graph.leftGeometries);
     endCollection(state.caches);

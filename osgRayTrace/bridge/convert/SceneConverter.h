@@ -6,10 +6,12 @@
 #include "osgRayTrace/bridge/changes/GraphChanges.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/convert/ConversionResult.h"
+#include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 
 #include <memory>
 #include <optional>
+#include <unordered_set>
 
 namespace osgRayTrace::engine
 {
@@ -41,9 +43,17 @@ public:
     /// not throw.
     PatchResult patch(const GraphChanges& changes);
 
-    /// Returns whether the nodes that draw in cull alone show in this view what was converted. Such
-    /// nodes run, and may change the graph. Only bad_alloc is thrown.
-    bool holdsInCull(const ViewingConditions& conditions);
+    /// Returns what the nodes that draw in cull alone show in this view otherwise than it was
+    /// converted. Such nodes run, and may change the graph. Only bad_alloc is thrown. The changes
+    /// must be applied by patch(), or the graph converted.
+    CullChanges lookInCull(const ViewingConditions& conditions);
+
+    /// Returns the nodes whose cull traversals lookInCull() follows.
+    const std::unordered_set<const osg::Node*>& captured() const;
+
+    /// Adds the changes of cull traversals to those of the graph. They take the place of what the
+    /// graph tells of geometries that cull traversals alone have shown.
+    void addCullChanges(const CullChanges& cull, GraphChanges& changes) const;
 
     /// Returns the number of meshes that were ever made from arrays.
     uint64_t convertedMeshes() const;

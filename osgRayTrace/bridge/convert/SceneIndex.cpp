@@ -79,6 +79,15 @@ void SceneIndex::setEffects(TracedUse& use, uint32_t effects)
     _colorUses += setsColor(use);
 }
 
+bool SceneIndex::isFollowedInCull(const osg::Geometry& geometry, bool complete) const
+{
+    const auto found = geometries.find(&geometry);
+    if (found == geometries.end() || !found->second.culled) return false;
+    const std::vector<TracedUse>& uses = found->second.uses;
+    return complete || std::all_of(uses.begin(), uses.end(),
+                                   [](const TracedUse& use) { return use.effects == kInvalid; });
+}
+
 void SceneIndex::addUntraced(const RasterizedParts& parts,
                              const std::vector<const osg::Geometry*>& more)
 {

@@ -48,7 +48,8 @@ struct TracedGeometry
     std::vector<TracedUse> uses;                ///< in the order of the traversal
     /// False: the mesh is made at its place, as raised faces are, or is not watched.
     bool patchable = true;
-    bool plain = true; ///< true: only its conversion is counted
+    bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
+    bool plain = true;   ///< true: only its conversion is counted
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.
@@ -71,6 +72,10 @@ struct SceneIndex
     void removeUse(TracedGeometry& traced, std::size_t use);
     void removeUses(TracedGeometry& traced);
     void setEffects(TracedUse& use, uint32_t effects);
+
+    /// Returns whether changes of a geometry are told by CullWatch, whose look was complete or will
+    /// come to the geometry later. What is traced cannot wait for that, proxies can.
+    bool isFollowedInCull(const osg::Geometry& geometry, bool complete) const;
 
     /// Adds geometry that OpenGL draws and that has no proxy: that of parts, and more. Its place is
     /// that of its path, so it may move without a conversion.

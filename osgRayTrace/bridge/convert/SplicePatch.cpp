@@ -17,7 +17,7 @@ namespace
 /// against it.
 ConversionCause causeToKeep(const TracedGeometry& traced, uint32_t uses)
 {
-    if (!traced.patchable) return ConversionCause::NotAlone;
+    if (!traced.patchable || traced.culled) return ConversionCause::NotAlone;
     if (!traced.plain) return ConversionCause::Reported;
     return traced.uses.size() == uses ? ConversionCause::None : ConversionCause::OtherPaths;
 }

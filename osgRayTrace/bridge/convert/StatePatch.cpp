@@ -47,7 +47,8 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     const auto refuseUse = [&](ConversionCause cause) { return refuse(cause, use.path); };
     if (found == _convertedGraph.index.geometries.end())
         return refuseUse(ConversionCause::OtherPaths);
-    if (!found->second.patchable) return refuseUse(ConversionCause::NotAlone);
+    if (!found->second.patchable || found->second.culled)
+        return refuseUse(ConversionCause::NotAlone);
     if (found->second.uses.size() != use.uses) return refuseUse(ConversionCause::OtherPaths);
     TracedUse& traced = found->second.uses[use.use];
     if (traced.effects == kInvalid) return refuseUse(ConversionCause::StateEffects);

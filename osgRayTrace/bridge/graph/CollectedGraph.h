@@ -34,6 +34,8 @@ struct GeometryUse
     uint32_t state = 0;              ///< index into CollectedGraph::states
     uint32_t path = NodeTree::kNone; ///< index into CollectedGraph::paths; kNone: no picks
     bool proxy = false;              ///< OSG draws the use, and camera rays pass it: see Proxies.h
+    /// Number of the leaf of a cull traversal that the use stands for, see CulledLeaf.
+    uint32_t culled = kNoCulledLeaf;
 };
 
 struct CollectedGeometry
@@ -51,6 +53,13 @@ struct CollectedGeometry
     {
         return std::all_of(uses.begin(), uses.end(),
                            [](const GeometryUse& use) { return use.proxy; });
+    }
+
+    /// Returns whether all uses stand for leaves of cull traversals, which CullWatch looks at.
+    bool isCulled() const
+    {
+        return std::all_of(uses.begin(), uses.end(),
+                           [](const GeometryUse& use) { return use.culled != kNoCulledLeaf; });
     }
 };
 

@@ -92,7 +92,9 @@ void addLeaves(osgUtil::RenderBin& bin, std::vector<OrderedLeaf>& leaves)
         addLeaves(*inner, leaves);
 }
 
-std::vector<CapturedLeaf> leavesOf(osgUtil::RenderStage& stage, const osg::Matrixd& worldFromView)
+/// projection: that of the view.
+std::vector<CapturedLeaf> leavesOf(osgUtil::RenderStage& stage, const osg::Matrixd& worldFromView,
+                                   const osg::RefMatrix& projection)
 {
     std::vector<OrderedLeaf> ordered;
     addLeaves(stage, ordered);
@@ -106,6 +108,7 @@ std::vector<CapturedLeaf> leavesOf(osgUtil::RenderStage& stage, const osg::Matri
         leaf.drawable = const_cast<osg::Drawable*>(entry.leaf->getDrawable());
         if (entry.leaf->_modelview) leaf.worldFromLocal = *entry.leaf->_modelview;
         leaf.worldFromLocal.postMult(worldFromView);
+        leaf.isProjected = entry.leaf->_projection != &projection;
         for (const osgUtil::StateGraph* graph = entry.graph; graph; graph = graph->_parent)
             if (graph->getStateSet()) leaf.states.push_back(graph->getStateSet());
         std::reverse(leaf.states.begin(), leaf.states.end());
@@ -118,7 +121,10 @@ class Setup
 {
 public:
     Setup(CullPass& pass, const ReferenceView& view, unsigned int traversalMask)
-        : stage(new osgUtil::RenderStage), graph(new osgUtil::StateGraph), _visitor(pass.visitor)
+        : stage(new osgUtil::RenderStage),
+          graph(new osgUtil::StateGraph),
+          projection(new osg::RefMatrix(view.projection)),
+          _visitor(pass.visitor)
     {
         osg::ref_ptr<osg::Camera> camera;
         osg::ref_ptr<osg::View> osgView;
@@ -147,7 +153,7 @@ public:
         _visitor->setStateGraph(graph.get());
         _visitor->setRenderStage(stage.get());
         _visitor->pushViewport(viewport.get());
-        _visitor->pushProjectionMatrix(new osg::RefMatrix(view.projection));
+        _visitor->pushProjectionMatrix(projection.get());
     }
 
     ~Setup()
@@ -162,6 +168,7 @@ public:
 
     const osg::ref_ptr<osgUtil::RenderStage> stage;
     const osg::ref_ptr<osgUtil::StateGraph> graph;
+    const osg::ref_ptr<osg::RefMatrix> projection;
 
 private:
     const osg::ref_ptr<osgUtil::CullVisitor> _visitor; // the pass may get another one meanwhile
@@ -188,7 +195,8 @@ CapturedContent CullCapture::run(const osg::NodePath& path, const osg::Matrixd& 
                                     osg::Transform::ABSOLUTE_RF);
         visitor.getNodePath().assign(path.begin(), path.end() - 1);
         visit(*path.back(), visitor);
-        content.leaves = leavesOf(*setup.stage, osg::Matrixd::inverse(_view.viewFromWorld));
+        content.leaves =
+            leavesOf(*setup.stage, osg::Matrixd::inverse(_view.viewFromWorld), *setup.projection);
         content.otherStages =
             !setup.stage->getPreRenderList().empty() || !setup.stage->getPostRenderList().empty();
     }

@@ -23,6 +23,7 @@ struct CapturedLeaf
     osg::Matrixd worldFromLocal;
     /// State sets from the captured node on, the outermost first; the drawable's own is the last.
     std::vector<osg::ref_ptr<const osg::StateSet>> states;
+    bool isProjected = false; ///< a node below the captured one gives it a projection of its own
 };
 
 struct CapturedContent

@@ -61,11 +61,17 @@ uint64_t signatureOf(const std::vector<CapturedLeaf>& leaves)
     return hasher.value();
 }
 
-/// Returns whether each leaf has another one of the same drawable in the same place: OpenGL then
-/// draws it in several passes.
-std::vector<bool> inSeveralPasses(const std::vector<CapturedLeaf>& leaves)
+/// Tells which of OpenGL's passes over a drawable in one place a leaf is.
+enum class Pass : uint8_t
 {
-    std::vector<bool> several(leaves.size());
+    Only,
+    First,
+    Later,
+};
+
+std::vector<Pass> passesOf(const std::vector<CapturedLeaf>& leaves)
+{
+    std::vector<Pass> passes(leaves.size(), Pass::Only);
     std::unordered_map<uint64_t, std::size_t> firstOf;
     for (std::size_t i = 0; i < leaves.size(); ++i)
     {
@@ -73,9 +79,11 @@ std::vector<bool> inSeveralPasses(const std::vector<CapturedLeaf>& leaves)
         hasher.addData(leaves[i].drawable.get());
         hasher.addMatrix(leaves[i].worldFromLocal);
         const auto [first, isFirst] = firstOf.try_emplace(hasher.value(), i);
-        if (!isFirst) several[i] = several[first->second] = true;
+        if (isFirst) continue;
+        passes[first->second] = Pass::First;
+        passes[i] = Pass::Later;
     }
-    return several;
+    return passes;
 }
 
 } // namespace
@@ -100,6 +108,7 @@ void GraphCollector::popStates(std::size_t count)
 /// Returns why OSG draws a leaf of a cull traversal; null: the leaf is traced.
 const char* GraphCollector::leftReason(const CapturedLeaf& leaf)
 {
+    if (leaf.isProjected) return "not-traced.projection";
     const osg::Geometry* geometry = leaf.drawable->asGeometry();
     if (!geometry)
     {
@@ -185,17 +194,32 @@ CullOutcome GraphCollector::cullOutcome()
     }
     outcome.kind = CullOutcome::Captured;
     outcome.otherStages = culled.otherStages;
-    const std::vector<bool> several = inSeveralPasses(culled.leaves);
-    for (std::size_t i = 0; i < culled.leaves.size(); ++i)
-    {
-        CapturedLeaf& leaf = culled.leaves[i];
-        const char* reason = several[i] ? "rasterized.several-passes" : leftReason(leaf);
-        if (reason)
-            outcome.left.push_back({leaf.drawable, reason});
-        else
-            outcome.traced.push_back(std::move(leaf));
-    }
+    decideOnLeaves(culled.leaves, outcome);
     return outcome;
+}
+
+/// Decides which leaves of a cull traversal are traced, and which have proxies.
+void GraphCollector::decideOnLeaves(std::vector<CapturedLeaf>& leaves, CullOutcome& outcome)
+{
+    const std::vector<Pass> passes = passesOf(leaves);
+    const char* leftMade = nullptr; // why OSG draws one of the leaves that are of no node
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+    {
+        CulledLeaf& leaf = outcome.leaves.emplace_back();
+        static_cast<CapturedLeaf&>(leaf) = std::move(leaves[i]);
+        const osg::Geometry* geometry = leaf.drawable->asGeometry();
+        leaf.made = geometry && geometry->getNumParents() == 0;
+        if (leaf.made) leaf.drawable = &_triangles.chosen(*outcome.path.back(), i, *geometry);
+        leaf.left = passes[i] != Pass::Only ? "rasterized.several-passes" : leftReason(leaf);
+        if (leaf.made && leaf.left) leftMade = leaf.left;
+    }
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+    {
+        CulledLeaf& leaf = outcome.leaves[i];
+        // RasterizedParts cannot tell those that are traced from the others.
+        if (leaf.made && leftMade) leaf.left = leftMade;
+        leaf.proxy = leaf.left && passes[i] != Pass::Later && isProxied(leaf);
+    }
 }
 
 /// Decides what becomes of a drawable that may draw others in its place, as rigs of applications
@@ -208,17 +232,18 @@ CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
     for (const CapturedLeaf& leaf : culled.leaves)
         if (leaf.drawable == &drawable) return CullOutcome::Left;
     if (culled.leaves.empty() || culled.otherStages) return CullOutcome::Plain;
-    std::vector<CapturedLeaf> traced;
+    std::vector<CulledLeaf> leaves;
     for (std::size_t i = 0; i < culled.leaves.size(); ++i)
     {
-        CapturedLeaf leaf = culled.leaves[i];
+        CulledLeaf& leaf = leaves.emplace_back();
+        static_cast<CapturedLeaf&>(leaf) = culled.leaves[i];
         const osg::Geometry* geometry = leaf.drawable->asGeometry();
         if (!geometry) return CullOutcome::Plain;
+        leaf.made = true;
         leaf.drawable = &_triangles.chosen(drawable, i, *geometry);
         if (leftReason(leaf)) return CullOutcome::Plain;
-        traced.push_back(std::move(leaf));
     }
-    outcome.traced = std::move(traced);
+    outcome.leaves = std::move(leaves);
     return CullOutcome::Captured;
 }
 
@@ -241,129 +266,6 @@ std::optional<uint64_t> GraphCollector::cullSignatureAt(const osg::NodePath& pat
     const CapturedContent culled = capture.node(getNodePath(), _worldFromLocal.back());
     if (!culled.error.empty()) return std::nullopt;
     return signatureOf(culled.leaves);
-}
-
-/// Traverses what is below a node, with the node's state and transform.
-void GraphCollector::walkBelow(osg::Node& node)
-{
-    const bool pushed = pushState(node);
-    if (const osg::Transform* transform = node.asTransform())
-        traverseBelow(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view), node);
-    else
-        traverseChildren(node);
-    if (pushed) _states.pop();
-}
-
-/// Returns true if the node was collected with all below it: OSG draws all of it by a hint, or its
-/// own cull traversal has told what it shows.
-bool GraphCollector::collectsInCull(osg::Node& node)
-{
-    if (_lightsOnly || _isLeft || _leftToOsg > 0 || &node == _input.root) return false;
-    const bool someSee = isForSomeViews(node) && (node.asGroup() || cullReason(node));
-    if (someSee || (_input.rasterizesRest && node.getUserDataContainer() && node.asGroup() &&
-                    leavesToOsg(hintOf(getNodePath())) && isHintedAlike(node)))
-    {
-        rasterize();
-        if (!node.asGroup())
-        {
-            _report.count("rasterized.view-mask");
-            return true;
-        }
-        _isLeft = true;
-        walkBelow(node);
-        _isLeft = false;
-        return true;
-    }
-    const char* reason = cullReason(node);
-    if (!reason || hintOf(getNodePath()) == DrawHint::Trace) return false;
-    if (!_input.pass || !_input.view)
-    {
-        _report.count("approximated.cull-traversal");
-        _graph.cullUnknown = true;
-        return false;
-    }
-    // A cull traversal of so many paths would not end, with this library or without.
-    if (_counts.of(node, kMostPaths, kDeepestPath) > kMostPaths) return false;
-    HookAnswers answers;
-    _materials.keepAnswers(&answers);
-    CullOutcome outcome = cullOutcome();
-    const bool collected = outcome.kind != CullOutcome::Plain;
-    if (collected) collectCulled(node, outcome, reason);
-    _materials.keepAnswers(nullptr);
-    outcome.answers = std::move(answers);
-    _graph.cullOutcomes.push_back(std::move(outcome));
-    return collected;
-}
-
-/// Returns true if a drawable of the application's was collected by what it chooses in cull.
-bool GraphCollector::collectsChosen(osg::Drawable& drawable)
-{
-    if (!_input.rasterizesRest || !_input.pass || !_input.view || _isLeft || _leftToOsg > 0 ||
-        leavesToOsg(hintOf(getNodePath())) || isForSomeViews(drawable))
-        return false;
-    const char* reason = cullReason(drawable);
-    if (!reason) return false;
-    HookAnswers answers;
-    _materials.keepAnswers(&answers);
-    CullOutcome outcome = cullOutcome();
-    const bool collected = outcome.kind == CullOutcome::Captured;
-    if (collected) collectCulled(drawable, outcome, reason);
-    _materials.keepAnswers(nullptr);
-    outcome.answers = std::move(answers);
-    if (outcome.kind != CullOutcome::Left) _graph.cullOutcomes.push_back(std::move(outcome));
-    return collected;
-}
-
-/// Collects a node by the leaves of its cull traversal.
-void GraphCollector::collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason)
-{
-    if (!outcome.error.empty())
-        _report.warn("warned.cull-exception", "node '" + path() + "'",
-                     "has thrown an exception in a cull traversal, left to OSG: " + outcome.error);
-    _lightsOnly = true;
-    walkBelow(node);
-    _lightsOnly = false;
-    if (outcome.isDrawn())
-    {
-        _report.count(reason);
-        rasterize();
-        if (_graph.rasterized.size() > 0) _graph.rasterized.back().traced = tracedLeaves(outcome);
-    }
-    else
-        rasterize(RasterizedPart::Pick);
-    for (const CullOutcome::LeftLeaf& leaf : outcome.left)
-    {
-        pushOntoNodePath(leaf.drawable.get());
-        _report.count(leaf.reason);
-        popFromNodePath();
-        if (const osg::Geometry* geometry = leaf.drawable->asGeometry())
-            _graph.leftGeometries.push_back(geometry);
-    }
-    ++_untracked;
-    _isCaptured = true;
-    for (const CapturedLeaf& leaf : outcome.traced)
-    {
-        if (!pushMatrix(leaf.worldFromLocal)) continue;
-        const std::size_t pushed = pushStates(leaf);
-        pushOntoNodePath(leaf.drawable.get());
-        _report.count("converted.culled");
-        apply(*leaf.drawable->asGeometry());
-        popFromNodePath();
-        popStates(pushed);
-        _worldFromLocal.pop_back();
-    }
-    _isCaptured = false;
-    --_untracked;
-}
-
-osg::ref_ptr<TracedLeaves> GraphCollector::tracedLeaves(const CullOutcome& outcome)
-{
-    if (outcome.traced.empty()) return nullptr;
-    osg::ref_ptr<TracedLeaves> traced = new TracedLeaves;
-    for (const CapturedLeaf& leaf : outcome.traced)
-        if (traced->drawables.insert(leaf.drawable.get()).second)
-            traced->kept.push_back(leaf.drawable);
-    return traced;
 }
 
 } // namespace osgRayTrace::engine

@@ -73,6 +73,13 @@ bool isHintedAlike(const osg::Node& node, std::set<const osg::Node*>& seen)
 
 } // namespace
 
+bool CullOutcome::isDrawn() const
+{
+    return kind == Left || otherStages ||
+           std::any_of(leaves.begin(), leaves.end(),
+                       [](const CulledLeaf& leaf) { return leaf.left != nullptr; });
+}
+
 const char* cullReason(const osg::Node& node)
 {
     const bool calls = node.getCullCallback() && hasForeign(node.getCullCallback());

@@ -14,6 +14,22 @@
 namespace osgRayTrace::engine
 {
 
+constexpr uint32_t kNoCulledLeaf = 0xffffffffu;
+
+/// Holds a leaf of a cull traversal and what becomes of it.
+struct CulledLeaf : CapturedLeaf
+{
+    const char* left = nullptr; ///< why OSG draws it, a key of ConversionCounts; null: it is traced
+    bool proxy = false;         ///< OSG draws it, and it has a proxy: see Proxies.h
+    /// True: the drawable is of no node, and drawable is a copy of it, which stays the same object
+    /// although the application may take turns with several.
+    bool made = false;
+    uint32_t number = kNoCulledLeaf; ///< see GeometryUse::culled
+
+    /// Returns whether the leaf is a part of the traced scene.
+    bool isInScene() const { return !left || proxy; }
+};
+
 /// Holds a decision on a node that may draw or push state in cull, see cullReason().
 struct CullOutcome
 {
@@ -24,26 +40,18 @@ struct CullOutcome
         Left      ///< it cannot be captured, and OSG draws all of it
     };
 
-    /// Holds a drawable that OSG goes on drawing.
-    struct LeftLeaf
-    {
-        osg::ref_ptr<osg::Drawable> drawable;
-        const char* reason = nullptr; ///< key of ConversionCounts
-    };
-
     Kind kind = Plain;
     osg::NodePath path;                        ///< from the root to the node
     std::vector<osg::ref_ptr<osg::Node>> kept; ///< nodes of path from below the decorator on
-    std::vector<CapturedLeaf> traced;
-    std::vector<LeftLeaf> left;
-    bool otherStages = false; ///< see CapturedContent
-    std::size_t captured = 0; ///< number of leaves of the cull traversal
-    uint64_t signature = 0;   ///< hash of the drawables and state sets of those leaves
-    std::string error;        ///< see CapturedContent
-    HookAnswers answers;      ///< answers of the application's hook for the drawables
+    std::vector<CulledLeaf> leaves;            ///< in the order of the traversal, if Captured
+    bool otherStages = false;                  ///< see CapturedContent
+    std::size_t captured = 0;                  ///< number of leaves of the cull traversal
+    uint64_t signature = 0; ///< hash of the drawables and state sets of those leaves
+    std::string error;      ///< see CapturedContent
+    HookAnswers answers;    ///< answers of the application's hook for the drawables
 
     /// Returns whether OSG has to draw something of the subtree.
-    bool isDrawn() const { return kind == Left || !left.empty() || otherStages; }
+    bool isDrawn() const;
 };
 
 /// Returns why a node may draw or push state in cull that no other traversal finds, as a key of

@@ -9,6 +9,7 @@
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <iterator>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -119,24 +120,23 @@ uint64_t valuesHash(const osg::Geometry& geometry)
     return hash;
 }
 
-osg::ref_ptr<osg::Array> copyOf(const osg::Array* array)
+/// Returns a copy of a buffer, which is the copy that there was if that has the same values.
+template <class Buffer> osg::ref_ptr<Buffer> copyOf(const Buffer* buffer, Buffer* before)
 {
-    return array ? osg::clone(array, osg::CopyOp::DEEP_COPY_ALL) : nullptr;
+    if (!buffer) return nullptr;
+    const bool same = before && typeid(*before) == typeid(*buffer) &&
+                      contentsHash(*before) == contentsHash(*buffer);
+    return same ? before : osg::clone(buffer, osg::CopyOp::DEEP_COPY_ALL);
 }
 
-osg::Geometry::ArrayList copyOf(const osg::Geometry::ArrayList& arrays)
+template <class Buffer>
+std::vector<osg::ref_ptr<Buffer>> copiesOf(const std::vector<osg::ref_ptr<Buffer>>& buffers,
+                                           const std::vector<osg::ref_ptr<Buffer>>& before)
 {
-    osg::Geometry::ArrayList copies;
-    for (const osg::ref_ptr<osg::Array>& array : arrays)
-        copies.push_back(copyOf(array.get()));
-    return copies;
-}
-
-osg::Geometry::PrimitiveSetList copyOf(const osg::Geometry::PrimitiveSetList& sets)
-{
-    osg::Geometry::PrimitiveSetList copies;
-    for (const osg::ref_ptr<osg::PrimitiveSet>& set : sets)
-        copies.push_back(set ? osg::clone(set.get(), osg::CopyOp::DEEP_COPY_ALL) : nullptr);
+    std::vector<osg::ref_ptr<Buffer>> copies;
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+        copies.push_back(
+            copyOf<Buffer>(buffers[i].get(), i < before.size() ? before[i].get() : nullptr));
     return copies;
 }
 
@@ -148,16 +148,19 @@ void setIdentity(osg::Geometry& copy, const osg::Geometry& geometry)
     copy.setUserDataContainer(const_cast<osg::UserDataContainer*>(geometry.getUserDataContainer()));
 }
 
-/// Gives the copy the values of a geometry, in arrays of its own.
+/// Gives the copy the values of a geometry, in arrays of its own. Those that differ are new ones,
+/// because the last scene may still read the others.
 void setValues(osg::Geometry& copy, const osg::Geometry& geometry)
 {
     copy.setStateSet(const_cast<osg::StateSet*>(geometry.getStateSet()));
-    copy.setVertexArray(copyOf(geometry.getVertexArray()).get());
-    copy.setNormalArray(copyOf(geometry.getNormalArray()).get());
-    copy.setColorArray(copyOf(geometry.getColorArray()).get());
-    copy.setTexCoordArrayList(copyOf(geometry.getTexCoordArrayList()));
-    copy.setVertexAttribArrayList(copyOf(geometry.getVertexAttribArrayList()));
-    copy.setPrimitiveSetList(copyOf(geometry.getPrimitiveSetList()));
+    copy.setVertexArray(copyOf(geometry.getVertexArray(), copy.getVertexArray()).get());
+    copy.setNormalArray(copyOf(geometry.getNormalArray(), copy.getNormalArray()).get());
+    copy.setColorArray(copyOf(geometry.getColorArray(), copy.getColorArray()).get());
+    copy.setTexCoordArrayList(
+        copiesOf(geometry.getTexCoordArrayList(), copy.getTexCoordArrayList()));
+    copy.setVertexAttribArrayList(
+        copiesOf(geometry.getVertexAttribArrayList(), copy.getVertexAttribArrayList()));
+    copy.setPrimitiveSetList(copiesOf(geometry.getPrimitiveSetList(), copy.getPrimitiveSetList()));
     copy.dirtyBound();
 }
 
@@ -166,8 +169,8 @@ void setValues(osg::Geometry& copy, const osg::Geometry& geometry)
 const osg::Geometry* DrawableTriangles::of(const osg::Drawable& drawable)
 {
     Copy& copy = _copies[&drawable];
-    if (copy.used == _round && copy.drawable) return copy.triangles.get();
-    copy.drawable = &drawable;
+    if (copy.used == _round && copy.node) return copy.triangles.get();
+    copy.node = &drawable;
     copy.used = _round;
     Reader reader = readerOf(drawable);
     const uint64_t hash = reader.hash();
@@ -182,11 +185,11 @@ const osg::Geometry* DrawableTriangles::of(const osg::Drawable& drawable)
     return copy.triangles.get();
 }
 
-osg::Geometry& DrawableTriangles::chosen(const osg::Drawable& drawable, std::size_t number,
+osg::Geometry& DrawableTriangles::chosen(const osg::Node& node, std::size_t number,
                                          const osg::Geometry& geometry)
 {
-    Copy& copy = _chosen[{&drawable, number}];
-    copy.drawable = &drawable;
+    Copy& copy = _chosen[{&node, number}];
+    copy.node = &node;
     copy.used = _round;
     const uint64_t hash = valuesHash(geometry);
     if (!copy.triangles || copy.hash != hash)

@@ -15,7 +15,7 @@ namespace osgRayTrace::engine
 {
 
 /// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor, and copies of
-/// the geometries that drawables choose in cull. Each conversion asks the drawables again; a
+/// the geometries that nodes draw in cull. Each conversion asks the drawables again; a
 /// geometry stays the same object, with the same arrays while its values do.
 class DrawableTriangles
 {
@@ -25,12 +25,12 @@ public:
     /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
     const osg::Geometry* of(const osg::Drawable& drawable);
 
-    /// Returns a copy of the number-th geometry that the drawable has chosen in a cull traversal.
-    /// The copy is the same object whichever geometry is chosen, because rigs of applications take
-    /// turns with two. It has arrays of its own, as the application writes to its arrays at any
-    /// time, and the name, the user data and the node mask of the geometry that is chosen now.
-    osg::Geometry& chosen(const osg::Drawable& drawable, std::size_t number,
-                          const osg::Geometry& geometry);
+    /// Returns a copy of the number-th geometry that a cull traversal finds at or below a node: of
+    /// those that a drawable chooses, or that are of no node. The copy is the same object whichever
+    /// geometry is chosen, because rigs of applications take turns with two. It has arrays of its
+    /// own, as the application writes to its arrays at any time, and the name, the user data and
+    /// the node mask of the geometry that is chosen now.
+    osg::Geometry& chosen(const osg::Node& node, std::size_t number, const osg::Geometry& geometry);
 
     /// Forgets the drawables that were not asked for.
     void end();
@@ -42,14 +42,14 @@ public:
 private:
     struct Copy
     {
-        osg::ref_ptr<const osg::Drawable> drawable; ///< keeps the address unique
-        osg::ref_ptr<osg::Geometry> triangles;      ///< null: there are none
+        osg::ref_ptr<const osg::Node> node;    ///< keeps the address unique
+        osg::ref_ptr<osg::Geometry> triangles; ///< null: there are none
         uint64_t hash = 0;
         unsigned int used = 0;
     };
 
     std::map<const osg::Drawable*, Copy> _copies;
-    std::map<std::pair<const osg::Drawable*, std::size_t>, Copy> _chosen; ///< by number, too
+    std::map<std::pair<const osg::Node*, std::size_t>, Copy> _chosen; ///< by number, too
     unsigned int _round = 0;
 };
 

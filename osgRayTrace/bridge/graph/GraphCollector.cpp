@@ -257,7 +257,7 @@ void GraphCollector::collectUse(const osg::Geometry& geometry, uint32_t state, b
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
     collected.uses.push_back(
-        {engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy});
+        {engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy, _culledLeaf});
     _graph.hasProxies |= proxy;
 }
 
@@ -392,7 +392,8 @@ osg::Matrixd GraphCollector::engineFromLocal() const
 
 uint32_t GraphCollector::pickPath()
 {
-    return _input.picks && !_isCaptured ? _graph.paths.add(getNodePath()) : NodeTree::kNone;
+    return _input.picks && _culledLeaf == kNoCulledLeaf ? _graph.paths.add(getNodePath())
+                                                        : NodeTree::kNone;
 }
 
 } // namespace osgRayTrace::engine

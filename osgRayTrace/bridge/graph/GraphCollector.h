@@ -72,6 +72,7 @@ public:
     void apply(osg::ProxyNode& node) override;
     void apply(osg::TexGenNode& node) override;
     void apply(osg::Billboard& node) override;
+    void apply(osg::OccluderNode& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
 
@@ -113,7 +114,10 @@ private:
     bool leavesOut(const osg::Drawable& drawable);
     bool isForSomeViews(const osg::Node& node);
     bool collectsInCull(osg::Node& node);
-    void collectCulled(osg::Node& node, const CullOutcome& outcome, const char* reason);
+    void decideOnLeaves(std::vector<CapturedLeaf>& leaves, CullOutcome& outcome);
+    void collectCulled(osg::Node& node, CullOutcome& outcome, const char* reason);
+    void collectLeaf(CulledLeaf& leaf);
+    void collectProxy(osg::Drawable& drawable);
     static osg::ref_ptr<TracedLeaves> tracedLeaves(const CullOutcome& outcome);
     AssignedState assignedState(const osg::Drawable& drawable);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
@@ -121,6 +125,7 @@ private:
     float pointRadiusOf(const osg::Geometry& geometry);
     void collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy);
     bool isProxied(osg::Drawable& drawable);
+    bool isProxied(const CulledLeaf& leaf);
     void warnIfForced(const char* what);
     osg::Matrixd worldFromEye() const;
     osg::Matrixd engineFromLocal() const;
@@ -141,7 +146,8 @@ private:
     int _leftToOsg = 0;       // number of enclosing nodes that OSG draws with all below them
     bool _isLeft = false;     // OSG draws an enclosing group as a whole
     bool _lightsOnly = false; // leaves of a cull traversal stand for the drawables
-    bool _isCaptured = false; // such a leaf is visited, on a path that is not its own
+    uint32_t _culledLeaf = kNoCulledLeaf; // such a leaf is visited, on a path that is not its own
+    uint32_t _culledLeaves = 0;           // number of such leaves so far
     StateStack _states;
     RuleCaches& _rules;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states

@@ -59,7 +59,9 @@ bool isDrawnAsSurface(const DrawOrder& order, const GraphState& state)
 }
 
 /// Returns whether all nodes of the path are placed in the scene, and drawn as its surfaces are.
-bool isOfTheScene(const osg::NodePath& path, const GraphState& state)
+bool isOfTheScene(const osg::NodePath& path,
+                  const std::vector<osg::ref_ptr<const osg::StateSet>>& pushed,
+                  const GraphState& state)
 {
     DrawOrder order;
     for (const osg::Node* node : path)
@@ -70,6 +72,8 @@ bool isOfTheScene(const osg::NodePath& path, const GraphState& state)
             return false;
         if (node->getStateSet()) order.apply(*node->getStateSet());
     }
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : pushed)
+        order.apply(*stateSet);
     return isDrawnAsSurface(order, state);
 }
 
@@ -106,10 +110,11 @@ GraphState withoutColors(GraphState state)
 
 } // namespace
 
-bool hasProxy(const osg::Drawable& drawable, const osg::NodePath& path, const GraphState& state,
+bool hasProxy(const osg::Drawable& drawable, const osg::NodePath& path,
+              const std::vector<osg::ref_ptr<const osg::StateSet>>& pushed, const GraphState& state,
               const TextureConverter& textures)
 {
-    if (hintOf(path) == DrawHint::RasterizeOnly || !isOfTheScene(path, state)) return false;
+    if (hintOf(path) == DrawHint::RasterizeOnly || !isOfTheScene(path, pushed, state)) return false;
     if (programOf(state) && (isPlacedByProgram(drawable) || showsInside(state))) return false;
     if (!rasterizedState(state, textures, nullptr)) return true; // it could be traced as it is
     return blendingOf(state) == Blending::Opaque &&

@@ -46,7 +46,20 @@ bool GraphCollector::isProxied(osg::Drawable& drawable)
     const bool pushed = pushState(drawable);
     const GraphState& state = _states.states()[_states.top()];
     if (pushed) _states.pop();
-    return hasProxy(drawable, getNodePath(), state, _textures);
+    return hasProxy(drawable, getNodePath(), {}, state, _textures);
+}
+
+/// Returns whether a leaf of the cull traversal of the node at the end of the path, which OSG
+/// draws, has a proxy. Drawables of no node that are no geometry may be others in each traversal.
+bool GraphCollector::isProxied(const CulledLeaf& leaf)
+{
+    if (leaf.isProjected) return false;
+    const bool tellsTriangles =
+        leaf.drawable->asGeometry() ||
+        (std::strcmp(leaf.left, "not-traced.custom-drawable") == 0 &&
+         leaf.drawable->getNumParents() > 0 && _triangles.of(*leaf.drawable));
+    return tellsTriangles &&
+           hasProxy(*leaf.drawable, getNodePath(), leaf.states, stateOf(leaf), _textures);
 }
 
 } // namespace osgRayTrace::engine

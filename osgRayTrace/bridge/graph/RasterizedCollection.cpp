@@ -7,11 +7,20 @@
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <osg/Billboard>
+#include <osg/OccluderNode>
 
 #include <algorithm>
 
 namespace osgRayTrace::engine
 {
+
+/// Names an occluder. Rays meet what it hides from a view: shadows, mirrors and other views show
+/// it.
+void GraphCollector::apply(osg::OccluderNode& node)
+{
+    if (node.getOccluder()) _report.count("approximated.occluder");
+    apply(static_cast<osg::Node&>(node));
+}
 
 /// Returns whether the mask of the last node of the path hides it from some of the views: those
 /// that see it have it from OSG.

@@ -107,6 +107,12 @@ const TracedLeaves* tracedIn(const osgUtil::StateGraph* graph, const std::vector
     return nullptr;
 }
 
+bool isTraced(const osg::Drawable& drawable, const TracedLeaves& traced)
+{
+    const bool made = drawable.getNumParents() == 0 && drawable.asGeometry();
+    return made ? traced.made : traced.drawables.count(&drawable) > 0;
+}
+
 /// Takes out of a bin the leaves that are traced. Cameras below the parts have stages of their own,
 /// which keep theirs.
 void takeOut(osgUtil::RenderBin& bin, const std::vector<DrawnPart>& drawn)
@@ -118,7 +124,7 @@ void takeOut(osgUtil::RenderBin& bin, const std::vector<DrawnPart>& drawn)
         osgUtil::StateGraph::LeafList& leaves = graph->_leaves;
         leaves.erase(std::remove_if(leaves.begin(), leaves.end(),
                                     [traced](const osg::ref_ptr<osgUtil::RenderLeaf>& leaf)
-                                    { return traced->drawables.count(leaf->getDrawable()) > 0; }),
+                                    { return isTraced(*leaf->getDrawable(), *traced); }),
                      leaves.end());
     }
     for (const auto& [number, inner] : bin.getRenderBinList())

@@ -23,6 +23,7 @@ struct TracedLeaves : osg::Referenced
 {
     std::vector<osg::ref_ptr<osg::Drawable>> kept;
     std::unordered_set<const osg::Drawable*> drawables;
+    bool made = false; ///< true: so are all geometries of the subtree that are of no node
     /// State set without state, below which the state graph holds what is drawn of the subtree.
     osg::ref_ptr<osg::StateSet> mark = new osg::StateSet;
 };

@@ -235,13 +235,9 @@ void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions condition
     }
     _released = false;
     // Cull traversals may change the graph, so the look at the graph comes after them.
-    const bool holds = !same || _converter.holdsInCull(conditions);
+    const CullChanges cull = same ? _converter.lookInCull(conditions) : CullChanges();
     GraphChanges changes = look(*root, same, sameRoot, conditions);
-    if (!holds && !changes.convert)
-    {
-        changes.convert = true;
-        changes.reason.cause = ConversionCause::CullTraversal;
-    }
+    _converter.addCullChanges(cull, changes);
     if (!same) changes.reason.cause = cause;
     const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
@@ -303,7 +299,7 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     {
         // The watch looks even if the conditions differ: all changes are then known, and the next
         // look finds none of them.
-        GraphChanges found = _watch.look(root, conditions);
+        GraphChanges found = _watch.look(root, conditions, _converter.captured());
         const bool record = found.record;
         if (same) changes = std::move(found);
         changes.record = record;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 namespace osgRayTrace::engine
 {
@@ -33,31 +34,6 @@ bool followsVertices(const Scene& scene, const RigidMove& move)
     if (index >= scene.materials.size()) return true;
     const Material& material = scene.materials[index];
     return followsVertices(material.mapping) && followsVertices(material.second.mapping);
-}
-
-/// Returns the middles of the lights that are not infinitely far away [engine space].
-std::vector<Vec3> placesOf(const std::vector<Light>& lights, const Scene& scene)
-{
-    std::vector<Vec3> places;
-    for (const Light& light : lights)
-        switch (light.kind)
-        {
-        case LightKind::Directional:
-        case LightKind::Environment:
-            break;
-        case LightKind::Point:
-            places.push_back(light.position);
-            break;
-        case LightKind::Parallelogram:
-            places.push_back(light.corner + 0.5f * (light.edgeU + light.edgeV));
-            break;
-        case LightKind::Mesh:
-            if (light.instance >= scene.instances.size()) break;
-            const ChangedBox lamp = instanceBounds(scene, scene.instances[light.instance]);
-            places.push_back(0.5f * (lamp.low + lamp.high));
-            break;
-        }
-    return places;
 }
 
 /// Returns the angle by which the object turned [radians]. Small angles a are the root of half the
@@ -112,6 +88,23 @@ SampledImage cutImage(const SampledImage& image, const PixelWindow& window)
     return result;
 }
 
+/// Returns whether a pixel is at an edge of the object: the pixel is not smooth, and it or one of
+/// the eight around it shows the object.
+bool isAtEdge(const SurfaceMap& map, uint32_t object, int x, int y)
+{
+    const int width = map.view.width;
+    const auto at = [width](int column, int row)
+    {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(column);
+    };
+    if (map.smooth[at(x, y)]) return false;
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, map.view.height - 1); ++row)
+        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, width - 1); ++column)
+            if (map.object[at(column, row)] == object) return true;
+    return false;
+}
+
 /// Returns the move of points of world space, the other way round.
 Mat4d worldMoveBack(const RigidMove& move, const Scene& scene)
 {
@@ -130,28 +123,30 @@ void MovedSamples::chooseObjects(const SurfaceMap& map, const Scene& scene,
     for (const RigidMove& move : change.moves)
         places.boxes.insert(places.boxes.end(), {move.before, move.after});
     const ChangedSight sight = changedSight(map, scene, {}, places);
-    const std::vector<Vec3> lamps = placesOf(lights, scene);
     const auto windowOf = [&](const SeenBox& box)
     {
+        if (box.left >= box.right || box.bottom >= box.top) return PixelWindow(); // off the screen
         return PixelWindow{std::max(box.left - kMargin, 0), std::max(box.bottom - kMargin, 0),
                            std::min(box.right + kMargin, map.view.width),
                            std::min(box.top + kMargin, map.view.height)};
     };
+    std::optional<std::vector<Vec3>> lamps; // of the scene, if an object is seen
     std::size_t area = 0;
     for (std::size_t i = 0; i < change.moves.size(); ++i)
     {
         const RigidMove& move = change.moves[i];
         Object object;
         object.object = move.instance + 1u;
-        object.limits = limitsOf(move, lamps);
-        object.beforeFromAfter = worldMoveBack(move, scene);
         object.oldWindow = windowOf(sight.boxes[2 * i]);
         object.newWindow = windowOf(sight.boxes[2 * i + 1]);
         const bool seen = !object.oldWindow.isEmpty() && !object.newWindow.isEmpty();
-        if (!seen || object.limits.count < 1.0f || !followsVertices(scene, move)) continue;
+        if (!seen || !followsVertices(scene, move)) continue;
+        if (!lamps) lamps = _lamps.of(lights, scene);
+        object.limits = limitsOf(move, *lamps);
         const std::size_t own = std::max(object.oldWindow.area(), object.newWindow.area());
-        if (area + own > map.object.size()) continue;
+        if (object.limits.count < 1.0f || area + own > map.object.size()) continue;
         area += own;
+        object.beforeFromAfter = worldMoveBack(move, scene);
         _objects.push_back(std::move(object));
     }
 }
@@ -176,8 +171,13 @@ std::size_t MovedSamples::pixels() const
 {
     std::size_t sum = 0;
     for (const Object& object : _objects)
+    {
+        std::size_t own = 0;
         for (std::size_t i = 0; i < object.image.count.size(); ++i)
-            sum += object.map.object[i] == object.object && object.image.count[i] > 0.0f;
+            own += object.map.object[i] == object.object && object.image.count[i] > 0.0f &&
+                   object.map.lobe[i] > 0.0f;
+        sum += std::min(own, object.newWindow.area());
+    }
     return sum;
 }
 
@@ -220,9 +220,7 @@ void MovedSamples::findEdges(RenderSession& session, const Workers& workers) con
         const SurfaceMap part = cutMap(map, window, workers);
         for (int y = window.bottom; y < window.top; ++y)
             for (int x = window.left; x < window.right; ++x)
-                if (!part.smooth[static_cast<std::size_t>(y - window.bottom) *
-                                     static_cast<std::size_t>(window.width()) +
-                                 static_cast<std::size_t>(x - window.left)])
+                if (isAtEdge(part, _objects[i].object, x - window.left, y - window.bottom))
                     found[i].emplace_back(x / kBlockSize * kBlockSize, y / kBlockSize * kBlockSize);
     };
     workers.forEach(_objects.size(), findBlocks);

@@ -3,10 +3,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/session/history/LampPlaces.h"
 #include "osgRayTrace/session/history/Reprojection.h"
 #include "osgRayTrace/session/history/SceneChange.h"
 #include "osgRayTrace/session/image/MapWindow.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -37,7 +39,7 @@ public:
     void take(const SurfaceMap& map, const Scene& scene, const std::vector<Light>& lights,
               const SceneChange& change, const SampledImage& image, const Workers& workers);
 
-    /// Returns the number of pixels whose samples were taken.
+    /// Returns the largest number of pixels that carry() may set.
     std::size_t pixels() const;
 
     /// Sets the pixels of the image that have no samples and show one of the objects at its new
@@ -63,6 +65,7 @@ private:
                                    const Workers& workers, SampledImage& image);
 
     std::vector<Object> _objects;
+    LampPlaces _lamps;
 };
 
 } // namespace osgRayTrace::engine
