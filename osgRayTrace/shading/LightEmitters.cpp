@@ -115,36 +115,42 @@ LightEmitter parallelogram(const Light& light, uint32_t index, float area)
     return emitter;
 }
 
-LightEmitter point(const Light& light, uint32_t index)
-{
-    LightEmitter emitter;
-    set(emitter.corner, light.position);
-    emitter.light = index;
-    emitter.flags = kPoint;
-    return emitter;
-}
-
 float sumAbs(Vec3 v)
 {
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
+LightEmitter point(const Light& light, uint32_t index)
+{
+    LightEmitter emitter;
+    set(emitter.corner, light.position);
+    set(emitter.edgeU, light.direction);
+    set(emitter.edgeV, Vec3(light.spotCosCutoff, light.spotExponent, light.radius));
+    set(emitter.radiance,
+        Vec3(light.attenuationConstant, light.attenuationLinear, light.attenuationQuadratic));
+    // Colours that only OpenGL's equations use count, too: ambient and specular.
+    emitter.area =
+        kPi * (sumAbs(light.ambient) + sumAbs(light.diffuse) + sumAbs(light.specular)) / 3.0f;
+    emitter.light = index;
+    emitter.flags = kPoint;
+    return emitter;
+}
+
 /// A spot with an exponent is brightest along its axis; other spots are even up to the cut-off.
-LightBounds pointBounds(const Light& light)
+LightBounds pointBounds(const LightEmitter& emitter)
 {
     constexpr float kEdge = 0.99995f; // cosine of half a degree around the cone of an even spot
+    const Vec3 position = vectorOf(emitter.corner);
+    const float cutoff = emitter.edgeV[0], exponent = emitter.edgeV[1], radius = emitter.edgeV[2];
     LightBounds bounds;
-    bounds.low = light.position - Vec3(light.radius);
-    bounds.high = light.position + Vec3(light.radius);
-    // Colours that only OpenGL's equations use count, too: ambient and specular.
-    bounds.intensity =
-        kPi * (sumAbs(light.ambient) + sumAbs(light.diffuse) + sumAbs(light.specular)) / 3.0f;
-    bounds.falloff = glm::abs(
-        Vec3(light.attenuationConstant, light.attenuationLinear, light.attenuationQuadratic));
-    bounds.axis = light.direction;
-    const bool spot = light.spotCosCutoff > -1.0f;
-    const float cosCutoff = std::max(spot ? light.spotCosCutoff : -1.0f, -1.0f);
-    const bool peaked = spot && light.spotExponent > 1.0f;
+    bounds.low = position - Vec3(radius);
+    bounds.high = position + Vec3(radius);
+    bounds.intensity = emitter.area;
+    bounds.falloff = glm::abs(vectorOf(emitter.radiance));
+    bounds.axis = vectorOf(emitter.edgeU);
+    const bool spot = cutoff > -1.0f;
+    const float cosCutoff = std::max(cutoff, -1.0f);
+    const bool peaked = spot && exponent > 1.0f;
     bounds.cosCone = peaked ? 1.0f : cosCutoff;
     bounds.cosEmission = peaked ? std::max(cosCutoff, 0.0f) : kEdge;
     return bounds;
@@ -190,9 +196,9 @@ std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& ta
     return emitters;
 }
 
-LightBounds boundsOf(const LightEmitter& emitter, const Scene& scene)
+LightBounds boundsOf(const LightEmitter& emitter)
 {
-    if (emitter.isPoint()) return pointBounds(scene.lights[emitter.light]);
+    if (emitter.isPoint()) return pointBounds(emitter);
     const Vec3 corner = vectorOf(emitter.corner), u = vectorOf(emitter.edgeU),
                v = vectorOf(emitter.edgeV);
     const Vec3 far = emitter.flags & kTriangle ? corner + u : corner + u + v;

@@ -15,11 +15,14 @@ class MaterialTable;
 
 /// Bits of LightEmitter::flags. An emitter without the first two is a parallelogram.
 constexpr uint32_t kTriangle = 1; ///< of a mesh that emits; shines to both sides
-constexpr uint32_t kPoint = 2;    ///< point or spot light; all but its place is in Scene::lights
+constexpr uint32_t kPoint = 2;    ///< point or spot light
 constexpr uint32_t kTwoSided = 4;
 constexpr uint32_t kTextured = 8; ///< the radiance depends on the point
 
-/// A parallelogram, a triangle or a point light, in words that sixteen lanes gather.
+/// A parallelogram, a triangle or a point light, in words that sixteen lanes gather. Emitters of
+/// equal words have equal bounds. The members of a point light other than its place are its axis
+/// (edgeU), its cut-off, exponent and radius (edgeV), its attenuation (radiance) and its brightness
+/// (area).
 struct LightEmitter
 {
     float corner[3] = {};
@@ -44,6 +47,6 @@ std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& ta
                                         const MaterialTable* materials);
 
 /// Returns bounds of the light that an emitter sends out.
-LightBounds boundsOf(const LightEmitter& emitter, const Scene& scene);
+LightBounds boundsOf(const LightEmitter& emitter);
 
 } // namespace osgRayTrace::engine

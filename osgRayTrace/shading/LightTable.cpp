@@ -142,13 +142,12 @@ void LightTable::plantTree(const LightTable* previous, const MaterialTable* mate
         _tree = previous->_tree;
     else if (before && before->size() == emitters.size())
     {
-        _tree = std::make_shared<const LightTree>(*before, std::move(emitters), *_scene);
+        _tree = std::make_shared<const LightTree>(*before, std::move(emitters));
         if (_tree->spread() > kMostSpread * _tree->spreadAtBuild())
-            _tree = std::make_shared<const LightTree>(lightEmitters(*_scene, *this, materials),
-                                                      *_scene);
+            _tree = std::make_shared<const LightTree>(lightEmitters(*_scene, *this, materials));
     }
     else
-        _tree = std::make_shared<const LightTree>(std::move(emitters), *_scene);
+        _tree = std::make_shared<const LightTree>(std::move(emitters));
     for (const uint32_t i : _deltaLights)
         if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
     findEmitters();

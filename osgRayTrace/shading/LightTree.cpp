@@ -8,29 +8,28 @@
 namespace osgRayTrace::engine
 {
 
-LightTree::LightTree(std::vector<LightEmitter> emitters, const Scene& scene)
-    : _emitters(std::move(emitters))
+LightTree::LightTree(std::vector<LightEmitter> emitters) : _emitters(std::move(emitters))
 {
     OSGRAYTRACE_ASSERT(_emitters.size() >= 2);
     std::vector<LightBounds> bounds;
     bounds.reserve(_emitters.size());
     for (const LightEmitter& emitter : _emitters)
-        bounds.push_back(boundsOf(emitter, scene));
+        bounds.push_back(boundsOf(emitter));
     _pairs = std::make_shared<const LightPairs>(lightPairs(bounds));
-    setNodes(scene);
+    setNodes();
     _spreadAtBuild = _spread;
 }
 
-LightTree::LightTree(const LightTree& shape, std::vector<LightEmitter> emitters, const Scene& scene)
+LightTree::LightTree(const LightTree& shape, std::vector<LightEmitter> emitters)
     : _pairs(shape._pairs), _emitters(std::move(emitters)), _spreadAtBuild(shape._spreadAtBuild)
 {
     OSGRAYTRACE_ASSERT(_emitters.size() == shape.size());
-    setNodes(scene);
+    setNodes();
 }
 
 /// Puts the emitters in the order of the leaves, and joins their bounds from the leaves up: the
 /// numbers of pairs grow downwards.
-void LightTree::setNodes(const Scene& scene)
+void LightTree::setNodes()
 {
     const std::vector<uint32_t>& children = _pairs->children;
     std::vector<LightEmitter> ordered(_emitters.size());
@@ -55,7 +54,7 @@ void LightTree::setNodes(const Scene& scene)
             const uint32_t next = children[node];
             const bool leaf = next & LightPairs::kLeaf;
             const uint32_t number = next & ~LightPairs::kLeaf;
-            both[side] = leaf ? boundsOf(_emitters[number], scene) : pairs[number];
+            both[side] = leaf ? boundsOf(_emitters[number]) : pairs[number];
             (leaf ? _leafNodes : _parents)[number] = node;
             _nodes[node] = nodeOf(both[side], next);
             _spread += static_cast<double>(both[side].intensity) * _nodes[node].radius;

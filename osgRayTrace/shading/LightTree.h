@@ -30,11 +30,11 @@ LightPairs lightPairs(const std::vector<LightBounds>& bounds);
 class LightTree
 {
 public:
-    /// scene: emitters' lights; not kept. Takes at least two emitters.
-    LightTree(std::vector<LightEmitter> emitters, const Scene& scene);
+    /// Takes at least two emitters.
+    explicit LightTree(std::vector<LightEmitter> emitters);
 
     /// Takes the shape of a tree over as many emitters, which have moved or shine otherwise.
-    LightTree(const LightTree& shape, std::vector<LightEmitter> emitters, const Scene& scene);
+    LightTree(const LightTree& shape, std::vector<LightEmitter> emitters);
 
     std::size_t size() const { return _emitters.size(); }
     const LightEmitter& emitter(uint32_t number) const { return _emitters[number]; }
@@ -69,7 +69,7 @@ public:
     bool holds(const std::vector<LightEmitter>& emitters) const;
 
 private:
-    void setNodes(const Scene& scene);
+    void setNodes();
     void setParents();
 
     std::shared_ptr<const LightPairs> _pairs;

@@ -7,6 +7,8 @@
 
 #include "osgRayTrace/shading/SoftLight.h"
 
+#include <functional>
+
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -346,6 +348,51 @@ TEST_CASE("light tree: lights that have moved keep the shape, and the estimator 
     for (uint32_t e = 0; e < 300; ++e)
         alike += again.tree()->emitter(e).light == own.tree()->emitter(e).light;
     CHECK(alike == 300);
+}
+
+TEST_CASE("light tree: point lights that turn, brighten or fade otherwise have other bounds",
+          "[shading]")
+{
+    const Receiver below{{0, 0, 0}, {0, 0, 1}};
+    const auto spots = []
+    {
+        SceneBuilder builder;
+        for (int i = 0; i < 20; ++i)
+        {
+            Light light = pointLight(Vec3(i - 10.0f, 0, 5));
+            light.direction = Vec3(0, 0, 1); // away from the receiver
+            light.spotCosCutoff = 0.9f;
+            light.spotExponent = 4.0f;
+            builder.addLight(light);
+        }
+        return builder;
+    };
+    const SceneBuilder away = spots();
+    const LightTable table(*away.scene);
+    const LightTable same(*away.scene, &table);
+    CHECK(same.tree() == table.tree());
+    const std::function<void(Light&)> changes[] = {
+        [](Light& light) { light.direction = Vec3(0, 0, -1); },
+        [](Light& light) { light.spotCosCutoff = -1.0f; },
+        [](Light& light) { light.spotExponent = 0.0f; },
+        [](Light& light) { light.diffuse *= 3.0f; },
+        [](Light& light) { light.radius = 0.2f; },
+        [](Light& light) { light.attenuationLinear = 0.3f; },
+    };
+    for (const auto& change : changes)
+    {
+        const SceneBuilder edited = spots();
+        change(edited.scene->lights[10]);
+        const LightTable now(*edited.scene, &table), fresh(*edited.scene);
+        CHECK(now.tree() != table.tree());
+        const uint32_t emitter = now.tree()->numberOf(10);
+        CHECK(now.tree()->pmf(below.p, below.normal, emitter) ==
+              fresh.tree()->pmf(below.p, below.normal, fresh.tree()->numberOf(10)));
+    }
+    const SceneBuilder turned = spots();
+    changes[0](turned.scene->lights[10]);
+    const LightTable now(*turned.scene, &table);
+    CHECK(now.tree()->pmf(below.p, below.normal, now.tree()->numberOf(10)) == Approx(1.0));
 }
 
 TEST_CASE("light tree: bounds of two hold all that either holds", "[shading]")
