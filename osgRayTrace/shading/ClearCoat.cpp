@@ -38,16 +38,18 @@ float clearcoatAdjoint(const Bsdf& b, Vec3 wo, Vec3 wi, Transport transport)
 
 } // namespace
 
-void addClearcoat(const Bsdf& b, Vec3 wo, Vec3 wi, float pmf, Transport transport, BsdfValue& value)
+float tiltedCoatCosine(const Bsdf& b, Vec3 w)
 {
-    Vec3 o = wo, i = wi;
-    if (b.coatTilted)
-    {
-        const CoatFrame frame(b);
-        o = frame.toLocal(wo);
-        i = frame.toLocal(wi);
-        if (!(o.z > 0.0f && i.z > 0.0f)) return;
-    }
+    const float cosine = glm::dot(w, toFacets(b, b.coatNormal));
+    return std::max(w.z < 0.0f ? -cosine : cosine, 0.0f);
+}
+
+void addTiltedClearcoat(const Bsdf& b, Vec3 wo, Vec3 wi, float pmf, Transport transport,
+                        BsdfValue& value)
+{
+    const CoatFrame frame(b);
+    const Vec3 o = frame.toLocal(wo), i = frame.toLocal(wi);
+    if (!(o.z > 0.0f && i.z > 0.0f)) return;
     const Facet facet = facetOf(o, i, b.clearcoatAlpha);
     const float below = std::min(belowSheen(b, wo.z), belowSheen(b, wi.z));
     value.fCos += Vec3(b.clearcoat * fresnelDielectric(facet.cosH, kClearcoatIndex) * facet.value *

@@ -10,10 +10,10 @@ namespace osgRayTrace::engine
 
 // All directions are in the frame of the facets: see toFacets in LayeredTerms.h.
 
-/// Adds the value and the density of a rough clear coat for two directions on its side. pmf: the
-/// probability of this lobe.
-void addClearcoat(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport transport,
-                  BsdfValue& value);
+/// Adds the value and the density of a rough clear coat with a normal of its own for two directions
+/// on its side. pmf: the probability of this lobe.
+void addTiltedClearcoat(const Bsdf& bsdf, Vec3 wo, Vec3 wi, float pmf, Transport transport,
+                        BsdfValue& value);
 
 /// Returns a microfacet of a rough clear coat that wo sees.
 Vec3 sampleClearcoatFacet(const Bsdf& bsdf, Vec3 wo, float u, float v);

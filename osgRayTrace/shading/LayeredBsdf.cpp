@@ -61,10 +61,14 @@ LobePmf lobePmf(const Bsdf& b, Vec3 wo)
 {
     LobePmf pmf;
     if (hasSheen(b)) pmf.sheen = luminance(b.sheen) * sheenAlbedo(b.sheenAlpha, wo.z);
-    const float cosCoat = hasClearcoat(b) ? coatCosine(b, wo) : 0.0f;
-    if (cosCoat > 0.0f)
-        pmf.clearcoat = b.clearcoat * clearcoatAlbedo(b, cosCoat) * belowSheen(b, wo.z);
-    const float below = b.inside ? 1.0f : belowLayers(b, wo);
+    float below = b.inside ? 1.0f : belowSheen(b, wo.z);
+    if (hasClearcoat(b))
+    {
+        const float cosCoat = coatCosine(b, wo);
+        const float albedo = b.clearcoat * clearcoatAlbedo(b, cosCoat);
+        if (cosCoat > 0.0f) pmf.clearcoat = albedo * below;
+        below *= 1.0f - albedo;
+    }
     const Vec3 fresnel = interfaceFresnel(b, wo.z);
     const float toBase = belowInterface(b, wo.z);
     pmf.base = luminance(b.diffuse) * toBase * below;
@@ -92,6 +96,16 @@ float reflectedShare(const Bsdf& b, float cosH)
     return passed > 0.0f ? reflected / (reflected + passed) : 1.0f;
 }
 
+/// Adds a rough clear coat with the normal of the surface.
+void addClearcoat(const Bsdf& b, Vec3 wo, Vec3 wi, float pmf, BsdfValue& value)
+{
+    const Facet facet = facetOf(wo, wi, b.clearcoatAlpha);
+    const float below = std::min(belowSheen(b, wo.z), belowSheen(b, wi.z));
+    value.fCos +=
+        Vec3(b.clearcoat * fresnelDielectric(facet.cosH, kClearcoatIndex) * facet.value * below);
+    value.pdfW += pmf * facet.pdfW;
+}
+
 void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transport transport,
                  BsdfValue& value)
 {
@@ -102,7 +116,12 @@ void addSameSide(const Bsdf& b, Vec3 wo, Vec3 wi, const LobePmf& pmf, Transport 
     value.pdfW += (pmf.base + pmf.sheen) * uniform;
     if (hasSheen(b)) value.fCos += b.sheen * (evalSheen(b.sheenAlpha, wo, wi) * wi.z);
     if (hasClearcoat(b) && !isClearcoatSmooth(b))
-        addClearcoat(b, wo, wi, pmf.clearcoat, transport, value);
+    {
+        if (b.coatTilted)
+            addTiltedClearcoat(b, wo, wi, pmf.clearcoat, transport, value);
+        else
+            addClearcoat(b, wo, wi, pmf.clearcoat, value);
+    }
     if (b.reflects() && !b.isSmooth())
     {
         const Facet facet = facetOf(wo, wi, widthsOf(b));

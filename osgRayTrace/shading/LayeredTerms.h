@@ -39,12 +39,12 @@ inline Vec3 toFacets(const Bsdf& b, Vec3 w)
 }
 
 /// Returns the cosine of a direction to the normal of the clear coat, both on the side of wo; 0 if
-/// the coat turns away from the direction. w: in the frame of the facets, on either side.
+/// the coat turns away from the direction. w: in the frame of the facets, on either side. Few coats
+/// are tilted, and what they need is not inlined.
+float tiltedCoatCosine(const Bsdf& b, Vec3 w);
 inline float coatCosine(const Bsdf& b, Vec3 w)
 {
-    if (!b.coatTilted) return std::fabs(w.z);
-    const float cosine = glm::dot(w, toFacets(b, b.coatNormal));
-    return std::max(w.z < 0.0f ? -cosine : cosine, 0.0f);
+    return b.coatTilted ? tiltedCoatCosine(b, w) : std::fabs(w.z);
 }
 
 inline bool isClearcoatSmooth(const Bsdf& b)

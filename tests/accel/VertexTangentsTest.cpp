@@ -5,6 +5,7 @@
 
 #include "osgRayTrace/accel/SurfaceTangents.h"
 #include "osgRayTrace/accel/VertexTangents.h"
+#include "osgRayTrace/base/Parallel.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -146,4 +147,36 @@ TEST_CASE("vertex tangents: triangles without area in the texture take their nei
     CHECK(Vec3(tangentAt(made, 1, 0)).x > 0.5f);
     CHECK(made.triangles[2].x == made.triangles[0].y);
     CHECK(made.triangles[2].z == kInvalid); // nobody has one there
+}
+
+TEST_CASE("vertex tangents: scenes have them where a material needs them, and go on having them",
+          "[accel]")
+{
+    const auto mesh = std::make_shared<Mesh>(tube(12, true));
+    Material plain = lambert(Vec3(0.5f)), mapped = plain;
+    MaterialDetail detail;
+    detail.textures[kNormalRole] = 0;
+    mapped.detail = std::make_shared<MaterialDetail>(detail);
+    SceneBuilder builder, without;
+    auto texel = std::make_shared<Texture>();
+    texel->width = texel->height = 1;
+    texel->floats = {0.5f, 0.5f, 1.0f, 1.0f};
+    builder.scene->textures = {texel};
+    builder.add(mesh, mapped);
+    without.add(mesh, plain);
+    CHECK(without.build()->vertexTangents(0, false) == nullptr);
+    const auto traced = builder.build();
+    const VertexTangents* made = traced->vertexTangents(0, false);
+    REQUIRE(made);
+    CHECK(traced->vertexTangents(0, true) == nullptr); // there are no such coordinates
+
+    // Between two vertices the axis is that of the cylinder, where the facet's is that of its
+    // middle.
+    const Vec3 n = glm::normalize(mesh->normals[0] * 0.75f + mesh->normals[2] * 0.25f);
+    const auto axes = surfaceAxes(*traced, {0, 0, 0.25f, 0.0f}, false, n);
+    REQUIRE(axes);
+    CHECK(glm::length(axes->tangent - Vec3(-n.y, n.x, 0.0f)) < 1e-5f);
+    CHECK(glm::length(axes->bitangent - Vec3(0, 0, 1)) < 1e-5f);
+    const auto later = TracedScene::build(builder.scene, std::make_shared<Workers>(), traced);
+    CHECK(later->vertexTangents(0, false) == made);
 }

@@ -114,10 +114,10 @@ TEST_CASE("coat normal: photons and paths find the same light", "[integrators][s
         builder.addQuadLight({-0.3f, 0.3f, 1.9f}, {0.6f, 0, 0}, {0, -0.6f, 0}, Vec3(5.0f));
         const auto scene = builder.build();
         const View view = perspectiveView({1.5, 0, 2.5}, {-1, 0, 2.5}, {0, 1, 0}, 30.0, 24, 24);
-        const Estimate paths = measure(scene, view, optionsOf(IntegratorKind::Path), 128);
+        const Estimate paths = measure(scene, view, optionsOf(IntegratorKind::Path), 64);
         RenderOptions options = optionsOf(IntegratorKind::Sppm);
-        options.photons = 40000;
-        const Estimate photons = measure(scene, view, options, 16);
+        options.photons = 20000;
+        const Estimate photons = measure(scene, view, options, 20);
         CAPTURE(roughness, paths.mean(), photons.mean());
         CHECK(paths.mean() > 0.001);
         const double spread = 4.0 * std::hypot(paths.standardError(), photons.standardError());
