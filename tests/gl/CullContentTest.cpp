@@ -11,6 +11,7 @@
 #include <osg/Depth>
 #include <osg/Light>
 #include <osg/Program>
+#include <osg/Projection>
 #include <osg/Texture2D>
 #include <osgUtil/SceneView>
 #include <osgViewer/Renderer>
@@ -183,6 +184,19 @@ TEST_CASE("cull content: state that a callback pushes", "[gl][cull]")
         View view(group.get());
         checkPicture(view);
         CHECK(view.count("rasterized.cull-callback") == 1);
+        CHECK(view.count("converted.culled") == 1);
+    }
+    SECTION("what has a projection of its own is left to OSG")
+    {
+        const osg::ref_ptr<osg::Projection> projection =
+            new osg::Projection(osg::Matrix::ortho2D(-2.0, 2.0, -2.0, 2.0));
+        const osg::ref_ptr<osg::MatrixTransform> overlay = raised(plainSquare(0.8f).get(), 0.5f);
+        overlay->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        projection->addChild(overlay.get());
+        group->addChild(projection.get());
+        View view(group.get());
+        checkPicture(view);
+        CHECK(view.count("not-traced.projection") == 1);
         CHECK(view.count("converted.culled") == 1);
     }
     SECTION("a light is left to OSG")
