@@ -59,7 +59,8 @@ struct EmissiveMesh
     std::vector<float> cumulative; ///< running share of the area; the last is 1
 };
 
-/// Up to this number of emitters there is no tree: measured, see LightTable.cpp.
+/// Up to this number of emitters there is no tree, and all point lights are sampled, as OpenGL
+/// does.
 constexpr std::size_t kMostWithoutTree = 8;
 
 /// Points on a light are off its plane by this share of the sum of its coordinates, at most. The
