@@ -39,6 +39,7 @@ struct TileError
     double squares = 0.0;        ///< sum over pixels and RGB of the relative squared errors
     double typicalSquares = 0.0; ///< the same, relative to max(r, R)
     float worst = 0.0f;          ///< largest sum over RGB of a pixel
+    BiasProducts bias;           ///< relative to R
 };
 
 using PixelSquares = FloatLanes[kTileBlocks];
@@ -132,9 +133,9 @@ void addSquares(const FloatLanes& first, const FloatLanes& second, double weight
 
 /// Sets squares to the pixels' sums over RGB of their relative squared errors, and typical to sums
 /// of those relative to max(r, R).
-void squaresOf(const TileHalves& halves, PixelSquares& squares, Lanes<double>& typical)
+void squaresOf(const TileHalves& halves, const TileScale& scale, PixelSquares& squares,
+               Lanes<double>& typical)
 {
-    const TileScale scale = scaleOf(halves);
     typical = Lanes<double>{};
     for (int b = 0; b < kTileBlocks; ++b)
     {
@@ -146,14 +147,20 @@ void squaresOf(const TileHalves& halves, PixelSquares& squares, Lanes<double>& t
     }
 }
 
-TileError errorOf(const Film& film, int tile)
+/// differences: those of the tile; null: there are none.
+TileError errorOf(const Film& film, int tile, const DiscDifferences* differences)
 {
     TileHalves halves;
     readHalves(film, tile, halves);
+    const TileScale scale = scaleOf(halves);
     PixelSquares squares;
     Lanes<double> typical;
-    squaresOf(halves, squares, typical);
+    squaresOf(halves, scale, squares, typical);
     TileError error;
+    if (differences)
+        error.bias = biasProducts(*differences, film.tilePasses(tile),
+                                  Vec3d(scale.inverse[0], scale.inverse[1], scale.inverse[2]) /
+                                      halves.squareScale);
     for (const FloatLanes& block : squares)
     {
         for (int i = 0; i < kLanes; ++i)
@@ -196,7 +203,7 @@ double worstSquares(const Film& film, const std::vector<TileError>& tiles, const
                         readHalves(film, static_cast<int>(order[k]), halves);
                         PixelSquares squares;
                         Lanes<double> typical;
-                        squaresOf(halves, squares, typical);
+                        squaresOf(halves, scaleOf(halves), squares, typical);
                         for (const FloatLanes& block : squares)
                             for (int i = 0; i < kLanes; ++i)
                                 if (block[i] >= least) found[k].push_back(block[i]);
@@ -224,20 +231,28 @@ double medianOf(std::vector<double> values)
 
 } // namespace
 
-ErrorEstimate estimateError(const Film& film, const Workers& workers)
+ErrorEstimate estimateError(const Film& film, const Workers& workers,
+                            const std::vector<DiscDifferences>& differences)
 {
     if (film.passes() < 2) return {};
     std::vector<TileError> tiles(static_cast<std::size_t>(film.tileCount()));
     workers.forEach(tiles.size(),
-                    [&](std::size_t tile) { tiles[tile] = errorOf(film, static_cast<int>(tile)); });
+                    [&](std::size_t tile)
+                    {
+                        tiles[tile] = errorOf(film, static_cast<int>(tile),
+                                              differences.empty() ? nullptr : &differences[tile]);
+                    });
     double squares = 0.0;
-    std::vector<double> typical(tiles.size());
+    std::vector<double> typical(tiles.size()), pixels(tiles.size());
+    std::vector<BiasProducts> biases(tiles.size());
     for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     {
         squares += tiles[tile].squares;
-        typical[tile] = tiles[tile].typicalSquares /
-                        static_cast<double>(kColors * pixelsOf(film, static_cast<int>(tile)));
+        pixels[tile] = static_cast<double>(pixelsOf(film, static_cast<int>(tile)));
+        typical[tile] = tiles[tile].typicalSquares / (kColors * pixels[tile]);
+        biases[tile] = tiles[tile].bias;
     }
+    squares += squaredBias(biases, pixels);
     const double values = kColors * double(film.width()) * film.height();
     ErrorEstimate estimate;
     estimate.relative = std::sqrt(squares / values);

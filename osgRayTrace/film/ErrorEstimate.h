@@ -3,8 +3,10 @@
 #pragma once
 
 #include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/KernelBias.h"
 
 #include <limits>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -15,7 +17,8 @@ class Workers;
 /// of r over the pixels of a tile, channel by channel.
 struct ErrorEstimate
 {
-    /// sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB. R is not known but taken from x;
+    /// sqrt(mean((x - r)^2 / (R^2 + 0.01))) over pixels and RGB, noise and the bias of photon
+    /// look-ups. R is not known but taken from x;
     /// the tile has so many samples that this matters only if errors are greater than visible ones.
     /// A pixel's own r, or that of a block of 4 x 4, would be as noisy as the error at a light's
     /// edge, and hide most of the error.
@@ -29,6 +32,8 @@ struct ErrorEstimate
 };
 
 /// Returns the estimate for the whole image, from its two halves [Rousselle12, sect. 3].
-ErrorEstimate estimateError(const Film& film, const Workers& workers);
+/// differences: by tile, or empty if no photons were looked up.
+ErrorEstimate estimateError(const Film& film, const Workers& workers,
+                            const std::vector<DiscDifferences>& differences = {});
 
 } // namespace osgRayTrace::engine

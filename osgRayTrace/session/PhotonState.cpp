@@ -102,6 +102,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
+    std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
     _passes->forgetSeen(_view);
@@ -167,6 +168,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         context.photonUse = PhotonUse::None;
         return;
     }
+    _differences.resize(_pixels / kTilePixels);
     _shrink = static_cast<float>(
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
@@ -226,8 +228,9 @@ HitPoints* PhotonState::hitPoints(int tile, int pass)
 
 std::size_t PhotonState::viewBytes() const
 {
-    std::size_t bytes =
-        _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics);
+    std::size_t bytes = _firstRadii.size() * sizeof(float) +
+                        _statistics.size() * sizeof(LocalStatistics) +
+                        _differences.size() * sizeof(DiscDifferences);
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
@@ -243,6 +246,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     }
     gathered.separate = _local;
+    gathered.comparedBlock = comparedBlock(tile, pass);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const std::size_t half = (pass & 1) ? _pixels : 0;
@@ -256,6 +260,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
                       RgbaLanes* rgba)
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
+    _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/film/KernelBias.h"
 #include "osgRayTrace/integrators/shared/HitPoints.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -60,6 +61,10 @@ public:
 
     bool active() const { return _pass != nullptr; }
 
+    /// Returns by tile what discs of other radii would have added; empty if no photons are looked
+    /// up.
+    const std::vector<DiscDifferences>& discDifferences() const { return _differences; }
+
     /// Returns the tile's hit points for the half of the film that the pass belongs to, if passes
     /// share camera paths, as those of Ppm do; otherwise null. A tile drops its hit points if they
     /// take more than its share of kMostHitPointBytes: its camera paths are then followed again.
@@ -104,10 +109,11 @@ private:
     /// seen.
     bool _guides = false;
     int _preparedPass = -1;
-    std::size_t _pixels = 0;                  ///< number of pixels of all tiles
-    std::vector<float> _firstRadii;           ///< by tile, pixel; 0: not known; empty if local
-    std::vector<LocalStatistics> _statistics; ///< by half, tile, pixel; empty unless local
-    std::vector<HitPoints> _hitPoints;        ///< by half, tile; empty unless passes share paths
+    std::size_t _pixels = 0;                   ///< number of pixels of all tiles
+    std::vector<float> _firstRadii;            ///< by tile, pixel; 0: not known; empty if local
+    std::vector<LocalStatistics> _statistics;  ///< by half, tile, pixel; empty unless local
+    std::vector<HitPoints> _hitPoints;         ///< by half, tile; empty unless passes share paths
+    std::vector<DiscDifferences> _differences; ///< by tile
     /// Contributions of the pass at work, by tile; empty unless the guide learns from the pass.
     std::vector<std::vector<SeenSquares>> _seen;
     /// Sums over all passes that the guide learns from: see PhotonPasses::recordSeen.

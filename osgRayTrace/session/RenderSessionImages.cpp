@@ -35,7 +35,7 @@ std::optional<PassContext> SessionState::contextOfSize(int width, int height) co
 
 ErrorEstimate SessionState::estimateError() const
 {
-    return engine::estimateError(film, *workers);
+    return engine::estimateError(film, *workers, photons.discDifferences());
 }
 
 /// Writes the image to the display. If over is true, tiles without a pass are left as they are.

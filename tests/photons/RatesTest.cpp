@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
+#include "tests/photons/KnownPatches.h"
 #include "tests/photons/Nephroid.h"
 
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -19,60 +20,6 @@ constexpr double kPiD = glm::pi<double>();
 constexpr int kCounts[] = {64, 128, 256, 512, 1024, 2048, 4096};
 constexpr std::size_t kLast = 6;
 
-/// A patch of floor whose radiance is known, for each pixel and as a mean over discs.
-struct Known
-{
-    SceneBuilder builder;
-    Vec3d centre;
-    double side;
-    double (*mean)(double x, double y, double radius); ///< of the light that photons carry
-    double (*direct)(double x, double y);
-};
-
-/// Returns a point light at (0, 0, 1) beside a mirror at x = 1: the light's image is at (2, 0, 1).
-/// Light that falls onto the patch from the image has gone through the mirror wherever the patch's
-/// discs reach.
-SceneBuilder flatMirror()
-{
-    SceneBuilder builder;
-    builder.add(quadMesh({-2, -2, 0}, {2.9f, 0, 0}, {0, 4, 0}), lambert(Vec3(1.0f)));
-    builder.add(quadMesh({1, 0.45f, 0.1f}, {0, -0.9f, 0}, {0, 0, 0.53f}), mirror(Vec3(1.0f)));
-    builder.addLight(pointLight({0, 0, 1}));
-    return builder;
-}
-
-/// Returns the radiance of a white floor under a point light of intensity pi, which is one length
-/// above the foot.
-double underLight(double x, double y)
-{
-    return std::pow(1.0 + x * x + y * y, -1.5);
-}
-
-/// Returns the mean over a disc to the fourth order of the radius, which is 1e-6 at the discs of
-/// this test. E = (1 + q)^-1.5, where q is the square of the distance from the foot: its Laplacian
-/// is (9 q - 6) (1 + q)^-3.5.
-double mirroredMean(double x, double y, double radius)
-{
-    const double q = (x - 2.0) * (x - 2.0) + y * y;
-    return underLight(x - 2.0, y) +
-           radius * radius / 8.0 * (9.0 * q - 6.0) * std::pow(1.0 + q, -3.5);
-}
-
-Known flatMirrorPatch()
-{
-    return {flatMirror(), {0.1, 0, 0}, 0.8, mirroredMean, underLight};
-}
-
-/// Returns a patch between the centre and the nephroid's cusp, where G rises from 1.4 to 5.
-Known nephroidPatch()
-{
-    return {nephroid(),
-            {0.28, 0, 0},
-            0.24,
-            [](double x, double y, double radius) { return meanGain(x, y, radius); },
-            [](double, double) { return 1.0; }};
-}
-
 /// Holds the means, over the pixels, of the error over the true value and of its square at each of
 /// kCounts, with one value a run.
 struct Errors
@@ -81,33 +28,10 @@ struct Errors
     std::vector<double> slopes; ///< of the squared error, one a run
 };
 
-/// Returns the centre of pixel k; pixels count row by row from below, and patchView looks down with
-/// +x up.
-Vec3d pixelCentre(const Known& known, int k)
-{
-    const double up = (k / kPixels + 0.5) / kPixels - 0.5,
-                 right = (k % kPixels + 0.5) / kPixels - 0.5;
-    return known.centre + Vec3d(up, -right, 0.0) * known.side;
-}
-
-/// Returns the radiance of the pixels without noise and bias. The mean over a disc with the
-/// square's second moments is the mean over the pixel, to the fourth order of the pixel's size.
-std::vector<double> truth(const Known& known)
-{
-    std::vector<double> values;
-    const double pixelRadius = known.side / kPixels / std::sqrt(3.0);
-    for (int k = 0; k < kPixels * kPixels; ++k)
-    {
-        const Vec3d p = pixelCentre(known, k);
-        values.push_back(known.mean(p.x, p.y, pixelRadius) + known.direct(p.x, p.y));
-    }
-    return values;
-}
-
-Errors measured(const Known& known, RenderOptions options, int runs)
+Errors measured(const KnownPatch& known, RenderOptions options, int runs)
 {
     const auto traced = known.builder.build();
-    const std::vector<double> expected = truth(known);
+    const std::vector<double> expected = truth(known, kPixels);
     Errors errors;
     errors.relative.resize(kLast + 1);
     errors.squared.resize(kLast + 1);
@@ -115,7 +39,7 @@ Errors measured(const Known& known, RenderOptions options, int runs)
     {
         RenderSession session(std::make_shared<Workers>(1));
         session.setScene(traced);
-        session.setView(patchView(known.centre, {0, 0, 1}, known.side, kPixels));
+        session.setView(viewOf(known, kPixels));
         options.seed = 77 + static_cast<uint32_t>(run);
         session.setOptions(options);
         std::vector<double> counts, squares;
@@ -163,7 +87,7 @@ void checkSlope(const char* name, const Errors& errors, const RenderOptions& opt
 }
 
 /// Returns the power of a photon that comes by the mirror: all photons have the same [W].
-double photonPower(const Known& known, const RenderOptions& options)
+double photonPower(const KnownPatch& known, const RenderOptions& options)
 {
     const auto traced = known.builder.build();
     PhotonPassOptions pass;
@@ -179,13 +103,14 @@ double photonPower(const Known& known, const RenderOptions& options)
 /// Returns the mean, over the pixels, of variance and squared bias over the squared value after
 /// count passes. Pass i has a disc of r_i^2 = r_1^2 globalRadiusSquared(i), whose photons are
 /// Poisson distributed.
-double expectedSquare(const Known& known, const RenderOptions& options, double power, int count)
+double expectedSquare(const KnownPatch& known, const RenderOptions& options, double power,
+                      int count)
 {
-    const std::vector<double> expected = truth(known);
+    const std::vector<double> expected = truth(known, kPixels);
     double sum = 0.0;
     for (int k = 0; k < kPixels * kPixels; ++k)
     {
-        const Vec3d p = pixelCentre(known, k);
+        const Vec3d p = pixelCentre(known, kPixels, k);
         double mean = 0.0, variance = 0.0;
         for (int i = 0; i < count; ++i)
         {
@@ -222,7 +147,7 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
 // errors, and some because photons are spread more evenly than by chance.
 TEST_CASE("rates: a flat mirror's light by global radii", "[photons][statistics][stability 41]")
 {
-    const Known known = flatMirrorPatch();
+    const KnownPatch known = flatMirrorPatch();
     for (const float alpha : {0.5f, 2.0f / 3.0f, 0.8f})
     {
         RenderOptions options =

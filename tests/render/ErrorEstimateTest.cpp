@@ -116,8 +116,20 @@ void checkErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKin
     }
 }
 
-/// Checks integrators with photons likewise, but takes the standard deviation over the seeds for
-/// the true error: the halves of an image cannot tell what discs of photons blur.
+/// Returns the session's estimate of the squared error by noise alone, from its error channel.
+double noiseEstimate(const RenderSession& session)
+{
+    const std::vector<float> image = session.resolveRadiance(),
+                             error = session.resolveChannel(Channel::Error);
+    std::vector<float> above = image;
+    for (std::size_t pixel = 0; pixel < image.size() / 4; ++pixel)
+        for (std::size_t c = 0; c < 3; ++c)
+            above[4 * pixel + c] += error[3 * pixel + c];
+    return relativeSquaredError(above, image, session.width());
+}
+
+/// Checks the noise of integrators with photons likewise. The standard deviation over the seeds is
+/// the true one; photons/BiasEstimateTest checks what discs of photons blur.
 void checkPhotonErrors(const std::shared_ptr<const TracedScene>& traced, IntegratorKind kind,
                        const View& view, int passes)
 {
@@ -137,8 +149,7 @@ void checkPhotonErrors(const std::shared_ptr<const TracedScene>& traced, Integra
     {
         session.setOptions(options);
         REQUIRE(session.render(rule).passes == passes);
-        const double estimate = session.estimateError().relative;
-        errors.estimated += estimate * estimate / kSeeds;
+        errors.estimated += noiseEstimate(session) / kSeeds;
         images.push_back(session.resolveRadiance());
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += double(images.back()[i]);

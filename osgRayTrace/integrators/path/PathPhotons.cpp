@@ -14,6 +14,9 @@ namespace
 
 constexpr float kGatherAlpha = 0.25f; ///< GGX width from which on a surface is rough
 
+constexpr float kSmallerDisc = 0.5f; ///< radius of the disc that a disc is compared with, over its
+                                     ///< own
+
 /// Look-ups with more photons than this are not recorded: no guiding is needed to find photons
 /// there.
 constexpr uint32_t kMostRecordedPhotons = 2048;
@@ -79,6 +82,44 @@ void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, c
     gatherBsdf(map, points, sums, tile.gatherScratch);
 }
 
+/// Returns the gathering lanes whose pixels are in the block that compares discs.
+LaneMask comparedLanes(const PathBlock& block, LaneMask gathering, int comparedBlock)
+{
+    LaneMask lanes = 0;
+    for (const int i : lanesIn(gathering))
+        if (static_cast<int>(block.flagsOf(i).pixel()) / kLanes == comparedBlock) lanes |= 1u << i;
+    return lanes;
+}
+
+/// Adds the differences between each disc's radiance and that by the next smaller disc, whose
+/// photons are among those of the larger one. sums are those of the discs of the queries.
+void compareDiscs(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, Bounce bounce,
+                  PhotonSumLanes sums)
+{
+    GatheredPhotons& gathered = *tile.result.photons.gathered;
+    bounce.gathering = comparedLanes(block, bounce.gathering, gathered.comparedBlock);
+    if (!bounce.gathering) return;
+    PhotonSumLanes smaller;
+    for (auto& differences : gathered.differences)
+    {
+        PhotonQueryLanes half = queries;
+        for (const int i : lanesIn(bounce.gathering))
+            half.radius[i] = queries.radius[i] * kSmallerDisc;
+        gatherLanes(tile, half, block, bounce, smaller);
+        for (const int i : lanesIn(bounce.gathering))
+        {
+            const float discArea = kPi * queries.radius[i] * queries.radius[i];
+            const Vec3 difference =
+                laneOf(block.throughput, i) *
+                (laneOf(sums.power, i) - laneOf(smaller.power, i) / (kSmallerDisc * kSmallerDisc)) /
+                discArea;
+            if (isFinite(difference)) differences[block.flagsOf(i).pixel() % kLanes] += difference;
+        }
+        queries = half;
+        sums = smaller;
+    }
+}
+
 } // namespace
 
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
@@ -108,6 +149,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
     PhotonSumLanes sums;
     gatherLanes(tile, queries, block, bounce, sums);
+    if (gathered.comparedBlock >= 0) compareDiscs(tile, queries, block, bounce, sums);
     for (const int i : lanesIn(bounce.gathering))
     {
         if (sums.count[i] == 0) continue;

@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/KernelBias.h"
 
 #include <cstdint>
 #include <vector>
@@ -47,6 +48,11 @@ struct GatheredPhotons
     bool separate = false;
     uint32_t count[kTilePixels] = {};
     Vec3 flux[kTilePixels] = {}; ///< flux times the path's throughput [W/sr]
+
+    /// The block of the tile whose pixels compare discs of several radii (see DiscDifferences), and
+    /// the differences of its lanes. -1: no block does.
+    int comparedBlock = -1;
+    Vec3 differences[kComparedDiscs][kLanes] = {};
 
     /// The photons that were found by the pixels whose number plus seenFirst is a multiple of
     /// seenStride. If seenStride is 0, no photons are wanted.
