@@ -138,6 +138,16 @@ inline void followCones(ShadingBlock& block)
     moveCones(block.rays.ray, block.surface.hits, block.cones);
 }
 
+/// Returns whether all hits are on the material first.
+bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first);
+
+/// Pushes the mirrored and refracted rays of physical lanes.
+void spawn(WhittedTile& tile, const ShadingBlock& block);
+
+/// Pushes rays that go on behind blended lanes, with the weight that the surfaces let through, and
+/// leaves the lanes the rest. Returns the lanes whose weight has become less.
+LaneMask passThrough(WhittedTile& tile, ShadingBlock& block);
+
 /// Adds a ray to the count of each lane's pixel, if the counts are wanted.
 void countRays(WhittedTile& tile, const ShadingBlock& block, LaneMask lanes);
 
