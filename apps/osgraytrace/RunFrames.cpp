@@ -40,22 +40,18 @@ bool isThere(const Options& frame)
                        [](const std::string& file) { return std::filesystem::exists(file); });
 }
 
-/// Renders one picture of an animation, and writes it unless a signal came meanwhile.
-void runFrame(const Options& options, int frame, osg::Node& scene, const Placement& home)
+/// Renders one picture of an animation, and writes it unless a signal came meanwhile. Returns
+/// whether it is written.
+bool runFrame(const Options& options, int frame, osg::Node& scene, const Placement& home)
 {
-    const OrderlyEnd end;
     const Picture picture = render(options, scene, home);
-    if (isInterrupted())
-    {
-        std::cerr << "osgraytrace: " << interruptionName() << ": frame " << frame
-                  << " was not finished and is not written\n";
-        return;
-    }
+    if (isInterrupted()) return false;
     const int written = writeAll(options, options.outputs, picture, {});
     std::printf("frame %d: %s\n", frame,
                 statisticsLine(options, picture.statistics, *picture.radiance).c_str());
     std::fflush(stdout);
     if (written != kDone) throw Failure(written, "the frames after it are not rendered");
+    return true;
 }
 
 /// A scene on its way through the frames.
@@ -88,15 +84,19 @@ int runFrames(const Options& options)
         const std::string problem = whyNotInFile(output, options.width, options.height);
         if (!problem.empty()) throw cannotWrite(output, problem);
     }
+    const OrderlyEnd end; // from here on there are frames to finish
     std::optional<Animation> animation;
     for (int number = options.frames->first; number <= options.frames->last; ++number)
     {
-        if (isInterrupted()) break;
         if (options.skipsExisting && isThere(optionsOfFrame(options, number))) continue;
         if (!animation || animation->isForOneFrame) animation.emplace(options);
         const Options frame = optionsOfFrame(animation->options, number);
         animation->clock->goTo(frame.at);
-        runFrame(frame, number, *animation->scene, animation->home);
+        const bool written = runFrame(frame, number, *animation->scene, animation->home);
+        if (!isInterrupted()) continue;
+        std::cerr << "osgraytrace: " << interruptionName() << ": frame "
+                  << (written ? number + 1 : number) << " and those after it are not written\n";
+        break;
     }
     return kDone;
 }

@@ -152,10 +152,10 @@ TEST_CASE("osgraytrace --frames: a signal leaves whole frames only", "[apps]")
     writeBall(folder);
     RunningProgram program(folder / ".",
                            {OSGRAYTRACE_TEST_PROGRAM, "ball.osgt", "--size", "64", "16", "--frames",
-                            "0:1000000", "--passes", "20000", "-o", "x%d.png"});
+                            "0:1000000", "--passes", "2000", "-o", "x%d.png"});
     REQUIRE(program.prints("frame 0: "));
     program.signal(SIGTERM); // long before the next frame is done
     CHECK(program.wait() == 143);
     CHECK(folder.fileNames() == Names{"ball.osgt", "x0.png"});
-    CHECK_THAT(program.printed(), Contains("osgraytrace: SIGTERM: "));
+    CHECK_THAT(program.printed(), Contains("osgraytrace: SIGTERM"));
 }
