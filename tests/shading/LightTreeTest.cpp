@@ -276,7 +276,7 @@ TEST_CASE("light tree: no light that reaches a point has probability 0", "[shadi
 }
 
 TEST_CASE("light tree: the variance in an open plane is that of its probabilities",
-          "[shading][statistics]")
+          "[shading][long][statistics]")
 {
     // f is exact by Lambert's formula, so that the choice is all of the noise. The sample variance
     // of 2^21 draws has an error of about 0.5 % in a distribution of this kurtosis.

@@ -30,17 +30,14 @@ OSGRAYTRACE_INLINE Quad quadOf(const LightEmitter& e)
             twoSided, {e.radiance[0], e.radiance[1], e.radiance[2]}};
 }
 
-/// Sets the sample of lane i on a flat emitter. Returns all bits if its light can reach the
+/// Sets the sample of lane i on a parallelogram. Returns all bits if its light can reach the
 /// surface.
 OSGRAYTRACE_INLINE uint32_t emitterLane(const LightEmitter& e, float inversePmf,
                                         const LightReceivers& receivers, int i,
                                         uint32_t transmissive, LightLanes& samples)
 {
     const Quad q = quadOf(e);
-    const float u = receivers.u[i], v = receivers.v[i];
-    // Triangles fold the square along its diagonal.
-    const uint32_t folded = (0u - (e.flags & kTriangle)) & maskOf(u + v > 1.0f);
-    const PlainVec3 point = pointOn(q, select(folded, 1.0f - u, u), select(folded, 1.0f - v, v));
+    const PlainVec3 point = pointOn(q, receivers.u[i], receivers.v[i]);
     return quadLane(q, inversePmf, receivers.surface, i, transmissive, point, samples);
 }
 
@@ -55,6 +52,37 @@ LaneMask emitterLanes(const LightEmitter* emitters, const UintLanes& numbers, co
                                      laneBit(transmissive, i), samples),
                          i);
     return lit;
+}
+
+/// Sets the sample of lane i on a triangle. Returns false if its light cannot reach the surface.
+/// The distance is measured from the start of the ray, as the path tracer measures it if a path
+/// meets the triangle by chance. Far from the origin of space the start is not at the surface, and
+/// densities that disagree would weight light twice.
+bool triangleLane(const LightEmitter& e, float pmf, const LightReceivers& receivers, int i,
+                  bool transmissive, LightLanes& samples)
+{
+    const Quad q = quadOf(e);
+    const float u = receivers.u[i], v = receivers.v[i];
+    const bool folded = u + v > 1.0f;
+    const PlainVec3 on = pointOn(q, folded ? 1.0f - u : u, folded ? 1.0f - v : v);
+    const Vec3 point(on.x, on.y, on.z), normal(q.normal.x, q.normal.y, q.normal.z);
+    const SurfaceLanes& surface = receivers.surface;
+    const Vec3 towards = point - laneOf(surface.position, i);
+    if (!transmissive && !(glm::dot(laneOf(surface.geometricNormal, i), towards) > 0.0f))
+        return false;
+    const float length = glm::length(towards);
+    if (!(length > 0.0f)) return false;
+    const RayBegin begin = leave(surface, i, towards / length);
+    const Vec3 way = point - begin.origin;
+    const float distance = glm::length(way);
+    if (!(distance > 0.0f)) return false;
+    const Vec3 wi = way / distance;
+    const float cosThetaL = std::fabs(glm::dot(wi, normal));
+    const float weight = cosThetaL * e.area / (distance * distance * pmf);
+    if (!(weight > 0.0f) || !(weight < 1e30f)) return false;
+    setRay(samples.shadow, i, begin, wi, std::max(begin.tNear, distance - q.offset / cosThetaL));
+    setSample(samples, i, wi, Vec3(q.radiance.x, q.radiance.y, q.radiance.z), weight);
+    return true;
 }
 
 /// Sets the radiance of lane i, whose emitter is a textured triangle.
@@ -111,7 +139,11 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
             lights.lit |= 1u << i;
             continue;
         }
-        lights.lit |= lit & (1u << i);
+        const bool isLit = emitter.flags & kTriangle
+                               ? triangleLane(emitter, samples.pmf[i], receivers, i,
+                                              (transmissive >> i) & 1u, lights)
+                               : ((lit >> i) & 1u) != 0;
+        lights.lit |= static_cast<LaneMask>(isLit) << i;
         if (emitter.flags & kTextured)
             setTexturedRadiance(context, emitter, receivers.u[i], receivers.v[i], i, lights);
     }
