@@ -29,3 +29,5 @@ else()
         set(OSGRAYTRACE_HAS_OIDN TRUE)
     endif()
 endif()
+
+include(OsgRayTraceGltfLibraries)

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 
+#include <algorithm>
 #include <new>
 
 namespace osgRayTrace
@@ -133,6 +134,34 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
     {
         return failed("an unknown error occurred");
     }
+}
+
+void Renderer::setFirstPass(int pass)
+{
+    _implementation->firstPass = std::max(pass, 0);
+}
+
+void Renderer::setWholePasses(bool on)
+{
+    _implementation->wholePasses = on;
+}
+
+PassSums Renderer::getPassSums() const
+{
+    try
+    {
+        return _implementation->passSums();
+    }
+    catch (const std::exception& error)
+    {
+        engine::warnOnce(std::string("the sums of passes could not be made: ") + error.what());
+        return {};
+    }
+}
+
+void Renderer::setPassSums(PassSums sums)
+{
+    _implementation->nextSums = std::move(sums);
 }
 
 void Renderer::dirtyScene()

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/RendererState.h"
 
+#include "osgRayTrace/PassSumsState.h"
+#include "osgRayTrace/PictureText.h"
 #include "osgRayTrace/bridge/common/HomeView.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
@@ -57,13 +59,16 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     convertScene();
     session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
     session->setOptions(engine::renderOptionsFromSettings(*settings));
+    session->setFirstPass(firstPass);
+    if (nextSums) resume();
     // The session would forget the cancellation at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
 
     engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
     // The render traces a tile at least, so that it comes to an end, however short the time is.
-    if (seconds > 0.0)
+    if (seconds > 0.0 && wholePasses) rule.seconds = seconds;
+    if (seconds > 0.0 && !wholePasses)
         rule.shouldStop = [begin, seconds](int tiles, double ahead)
         {
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
@@ -77,6 +82,34 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
         return progress(statistics);
     };
     engine::setImageStatistics(statistics, session->render(rule, keepGoing));
+}
+
+/// Hands the sums that render() is to begin with to the session.
+void Renderer::Implementation::resume()
+{
+    const PassSums sums = std::move(*nextSums);
+    nextSums.reset();
+    const std::string problem = whyNotOf(sums, pictureName());
+    if (!problem.empty()) throw EngineError(StatusCode::InvalidView, problem);
+    std::optional<engine::PassSums> own = engineSums(sums);
+    if (!own) throw EngineError(StatusCode::InvalidView, "the sums of passes are damaged");
+    session->resume(std::move(*own));
+}
+
+/// Returns the text that names what the next render() of the session makes.
+std::string Renderer::Implementation::pictureName() const
+{
+    return pictureText({traced->scene(), *settings, viewMatrix, projectionMatrix, width, height});
+}
+
+PassSums Renderer::Implementation::passSums() const
+{
+    std::optional<engine::PassSums> sums = session ? session->passSums() : std::nullopt;
+    if (!sums || sums->passes.empty()) return {};
+    PassSums result = publicSums(std::move(*sums));
+    result.picture = pictureName();
+    result.displayReferred = traced->scene().displayReferred;
+    return result;
 }
 
 /// Returns the denoised image and records how long the denoiser took.
@@ -111,6 +144,7 @@ void Renderer::Implementation::prepareSession()
     threads = settings->getThreads();
     workers = std::make_shared<engine::Workers>(threads);
     auto fresh = std::make_unique<engine::RenderSession>(workers);
+    fresh->setSums(engine::FilmSums::Exact);
     if (traced) fresh->setScene(traced);
 
     const std::lock_guard<std::mutex> lock(sessionMutex);

@@ -50,6 +50,10 @@ struct Renderer::Implementation
     bool headlight = true;
     osg::ref_ptr<RayTraceSettings> settings = new RayTraceSettings;
 
+    int firstPass = 0;
+    bool wholePasses = false;
+    std::optional<PassSums> nextSums; ///< sums that the next render() begins with
+
     Statistics statistics;
     int threads = -1; ///< threads for which the session was made
     std::shared_ptr<engine::Workers> workers;
@@ -68,6 +72,9 @@ struct Renderer::Implementation
 
     void render(engine::StopRule rule, double seconds,
                 const std::function<bool(const Statistics&)>& progress);
+    void resume();
+    std::string pictureName() const;
+    PassSums passSums() const;
     void placeHomeView();
     void prepareSession();
     void convertScene();

@@ -18,7 +18,7 @@ namespace osgRayTrace::app
 namespace
 {
 
-constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array kEnding{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 constexpr std::array kCrashing{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGQUIT, SIGSEGV, SIGXCPU};
 constexpr std::chrono::milliseconds kInterval(20);
 
@@ -88,6 +88,8 @@ std::string interruptionName()
         return "SIGTERM";
     case SIGHUP:
         return "SIGHUP";
+    case SIGUSR1:
+        return "SIGUSR1";
     default:
         return "";
     }

@@ -1,4 +1,4 @@
-// Interruption.h - Ctrl-C, SIGTERM and SIGHUP as an orderly end. Layer: apps.
+// Interruption.h - Ctrl-C, SIGTERM, SIGHUP and SIGUSR1 as an orderly end. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -11,13 +11,14 @@
 namespace osgRayTrace::app
 {
 
-/// Takes over SIGINT, SIGTERM and SIGHUP, unless they are ignored: outside of any OrderlyEnd they
+/// Takes over SIGINT, SIGTERM, SIGHUP and SIGUSR1, which job schedulers send before they stop a
+/// job, unless they are ignored: outside of any OrderlyEnd they
 /// end the process at once, with the code of interruptionCode(). These signals, and those of
 /// crashes, remove temporary files first. Writing to a closed pipe or beyond a size limit becomes
 /// an error of that write.
 void handleSignals();
 
-/// Returns whether one of the three signals has come. May be called from any thread.
+/// Returns whether one of the four signals has come. May be called from any thread.
 bool isInterrupted();
 
 /// Returns 128 and the signal's number, as shells do; 0 without a signal.

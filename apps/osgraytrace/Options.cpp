@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
-#include "PictureFormat.h"
+#include "OptionChecks.h"
 #include "apps/common/Failure.h"
 #include "osgRayTrace/base/NumberText.h"
 
@@ -20,7 +20,6 @@ namespace
 {
 
 constexpr int kDefaultPasses = 64;
-constexpr double kMaxPixels = 1 << 28;
 const char* const kChannels = "depth|distance|normal|albedo|position|id|error";
 
 const char* const kFooter =
@@ -77,6 +76,20 @@ CLI::Validator oneOf(const std::string& words)
     return CLI::Validator(problem, "");
 }
 
+/// Returns the pass after the last one of "B" or "A:B", and records A.
+std::string endOfPasses(const std::string& value, Options& options)
+{
+    const std::size_t colon = value.find(':');
+    options.firstPass = 0;
+    if (colon == std::string::npos) return value;
+    const auto first = engine::parseNumber<int>(value.substr(0, colon));
+    const auto end = engine::parseNumber<int>(value.substr(colon + 1));
+    if (!first || !end || *first < 0 || *end <= *first)
+        throw CLI::ValidationError("--passes", "'" + value + "' is not A:B with 0 <= A < B");
+    options.firstPass = *first;
+    return value.substr(colon + 1);
+}
+
 /// Adds a command line option for each option of RayTraceSettings, by its name.
 void addSettings(CLI::App& app, Options& options)
 {
@@ -87,14 +100,17 @@ void addSettings(CLI::App& app, Options& options)
                                  : option.name == "point-radius" ? "--points,--point-radius"
                                                                  : "--" + option.name;
         const std::string help =
-            passes ? "Stop after so many passes (64, unless --time or --error is given)"
+            passes ? "Stop after so many passes (64, unless --time or --error is given); or make "
+                     "those from A to B, B excluded, and leave the others to other machines"
                    : option.help;
-        const auto setter = [&options, option](const std::string& spelling)
+        const std::string range = passes ? option.range + "|A:B" : option.range;
+        const auto setter = [&options, option, passes](const std::string& spelling)
         {
-            return [&options, option, spelling](const std::string& value)
+            return [&options, option, spelling, passes](const std::string& value)
             {
-                options.assignments.emplace_back(option.name, value);
-                if (options.settings->set(spelling, value)) return;
+                const std::string given = passes ? endOfPasses(value, options) : value;
+                options.assignments.emplace_back(option.name, given);
+                if (options.settings->set(spelling, given)) return;
                 throw CLI::ValidationError("--" + option.name, "'" + value + "' is not one of " +
                                                                    commaSeparated(option.range));
             };
@@ -104,7 +120,7 @@ void addSettings(CLI::App& app, Options& options)
                                                  setter(option.formerName))
                 ->group(""); // hidden from the help
         app.add_option_function<std::string>(name, setter(option.name), help)
-            ->option_text(option.range)
+            ->option_text(range)
             ->group("Settings");
     }
 }
@@ -161,6 +177,19 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                    "Stop at this estimated error, relative to the brightness of 16 x 16 pixels")
         ->option_text("RELATIVE")
         ->check(positive());
+
+    app.add_option("--checkpoint", options.checkpoint,
+                   "Keeps the passes in this file, which shows the picture, and goes on from it: "
+                   "the same command begins, resumes and ends a picture")
+        ->option_text("FILE.exr");
+    app.add_option("--interval", options.interval, "Time between two checkpoints (60)")
+        ->option_text("SECONDS")
+        ->needs("--checkpoint")
+        ->check(positive());
+    app.add_option("--merge", options.merged,
+                   "Joins checkpoints of different passes of a picture, for -o and --checkpoint; "
+                   "no MODEL")
+        ->option_text("FILE.exr ...");
 
     app.add_option("--aov", options.channels, "Extra EXR channels: " + commaSeparated(kChannels))
         ->option_text("NAME,...")
@@ -226,58 +255,6 @@ void applyPasses(const CLI::App& app, Options& options)
     options.settings->setMaxPasses(*options.defaultPasses);
 }
 
-/// Throws Failure(kUsage) if --write-materials stands beside something else to print or write.
-void checkWrittenMaterials(const Options& options)
-{
-    if (options.writtenMaterials.empty()) return;
-    const std::pair<const char*, bool> others[] = {{"--names", options.names},
-                                                   {"-o", !options.outputs.empty()},
-                                                   {"--report", options.report},
-                                                   {"--stats", !options.statistics.empty()}};
-    for (const auto& [name, given] : others)
-        if (given) throw Failure(kUsage, std::string("--write-materials excludes ") + name);
-}
-
-/// Throws Failure(kUsage) if frames cannot be told apart by their files, or have one file for all.
-void checkFrames(const Options& options)
-{
-    if (!options.frames) return;
-    if (options.outputs.empty()) throw Failure(kUsage, "--frames needs an -o FILE");
-    if (!options.reference.empty()) throw Failure(kUsage, "--frames excludes --reference");
-    std::vector<std::string> files = options.outputs;
-    if (!options.statistics.empty()) files.push_back(options.statistics);
-    for (const std::string& file : files)
-        if (!frameName(file, 0))
-            throw Failure(kUsage, file + ": --frames needs one place for the number in the name, "
-                                         "as in out.%04d.png");
-}
-
-void check(const Options& options)
-{
-    if (options.models.empty()) throw Failure(kUsage, "no MODEL given; --help shows the options");
-    checkWrittenMaterials(options);
-    checkFrames(options);
-    const bool lists = options.names || !options.writtenMaterials.empty();
-    if (options.outputs.empty() && !options.report && !lists)
-        throw Failure(kUsage, "no -o FILE given; --help shows the options");
-    if (options.width < 1 || options.height < 1 ||
-        double(options.width) * options.height > kMaxPixels)
-    {
-        throw Failure(kUsage,
-                      "--size: width and height are at least 1, their product at most 2^28");
-    }
-
-    bool exr = false;
-    for (const std::string& output : options.outputs)
-    {
-        const std::optional<Format> format = formatOf(output);
-        if (!format)
-            throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
-        exr = exr || *format == Format::Exr;
-    }
-    if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");
-}
-
 } // namespace
 
 std::optional<Options> parseOptions(int argc, char** argv)
@@ -308,7 +285,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
     if (options.listOptions) return options;
     applyRaw(app, raw, options);
     applyPasses(app, options);
-    check(options);
+    checkOptions(options);
     return options;
 }
 

@@ -43,6 +43,11 @@ struct Options
     double framesPerSecond = 25.0;
     bool skipsExisting = false; ///< frames whose files are there are not rendered
 
+    int firstPass = 0;               ///< passes before it are left to others
+    std::string checkpoint;          ///< file that keeps the sums of passes; empty: none
+    double interval = 60.0;          ///< time between two writings of the checkpoint [s]
+    std::vector<std::string> merged; ///< checkpoints to join; empty: a picture is rendered
+
     double seconds = 0.0;       ///< 0: no limit
     double relativeError = 0.0; ///< 0: no target
     std::vector<std::string> channels;
@@ -53,11 +58,14 @@ struct Options
     bool listOptions = false;
     std::string writtenMaterials; ///< file for the models' materials; empty: none is written
     bool names = false; ///< true: the names of the models are printed, and nothing is rendered
-    osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the limit of passes
+    osg::ref_ptr<RayTraceSettings> settings; ///< maxPasses is the pass after the last one
 
     /// Holds the settings that the command line states: names and values.
     std::vector<std::pair<std::string, std::string>> assignments;
     std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
+
+    /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
+    bool isPart() const { return !checkpoint.empty() || firstPass > 0; }
 };
 
 /// Takes over the settings that a scene brings with it; settings that the command line states win.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Picture.h"
 
+#include "CheckpointKeeper.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
 
@@ -21,16 +22,27 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
 
-    const auto show = [&progress](const Statistics& statistics)
+    renderer->setFirstPass(options.firstPass);
+    renderer->setWholePasses(options.isPart());
+    CheckpointKeeper keeper(options, camera.clearColor, *renderer);
+
+    const auto show = [&](const Statistics& statistics)
     {
         progress.show(statistics);
-        return true;
+        keeper.keepIfDue();
+        return !isInterrupted();
     };
     bool rendered = false;
     {
-        const OrderlyEnd end([renderer] { renderer->cancel(); });
+        // A part of a picture has whole passes, so that the pass at work is finished.
+        const OrderlyEnd end(
+            [&]
+            {
+                if (!options.isPart()) renderer->cancel();
+            });
         rendered = renderer->render(options.seconds, options.relativeError, show);
     }
+    if (rendered) keeper.keep();
     const bool begun = renderer->getStatistics().imageShare > 0.0;
     if (isInterrupted() && !begun)
         throw Failure(interruptionCode(),

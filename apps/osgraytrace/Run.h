@@ -23,6 +23,10 @@ int runPicture(Options options);
 /// if it were the only one. Throws Failure; the frames before it are written then.
 int runFrames(const Options& options);
 
+/// Joins the checkpoints that the options name, and writes the picture. Returns the exit code;
+/// throws Failure.
+int runMerge(const Options& options);
+
 /// Throws the failures of files that the options ask for, as far as they are known before the work.
 void checkFiles(const Options& options);
 

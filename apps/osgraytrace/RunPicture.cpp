@@ -48,6 +48,8 @@ void reportInterruption(const Options& options, const Statistics& statistics)
         left = "not even the first pass was complete: " + std::to_string(percent) +
                " % of the picture is written, the rest of it is background";
     }
+    if (!options.checkpoint.empty())
+        left += "; the same command goes on from " + options.checkpoint;
     std::cerr << "osgraytrace: " << interruptionName() << ": " << left << '\n';
 }
 
@@ -112,6 +114,7 @@ void checkFiles(const Options& options)
     for (const std::string& output : options.outputs)
         files.push_back({"-o", output});
     if (!options.statistics.empty()) files.push_back({"--stats", options.statistics});
+    if (!options.checkpoint.empty()) files.push_back({"--checkpoint", options.checkpoint});
     checkOutputs(files);
 }
 
@@ -148,7 +151,9 @@ int runPicture(Options options)
     checkFiles(options);
     int code = kDone;
     const std::vector<std::string> outputs = writableOutputs(options, code);
-    if (outputs.empty() && options.statistics.empty() && !options.report) return code;
+    if (outputs.empty() && options.statistics.empty() && !options.report &&
+        options.checkpoint.empty())
+        return code;
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);

@@ -45,6 +45,7 @@ int runCommandLine(int argc, char** argv)
         return kDone;
     }
     addPluginPath();
+    if (!options->merged.empty()) return runMerge(*options);
     if (options->names)
     {
         std::cout << namesOf(*readScene(options->models)) << std::flush;

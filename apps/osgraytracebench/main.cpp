@@ -5,6 +5,7 @@
 #include "apps/common/Output.h"
 #include "apps/common/PluginPath.h"
 #include "apps/common/Program.h"
+#include "apps/osgraytracebench/modes/DaylightMode.h"
 #include "apps/osgraytracebench/modes/DenoiseMode.h"
 #include "apps/osgraytracebench/modes/FeaturesMode.h"
 #include "apps/osgraytracebench/modes/InteractiveMode.h"
@@ -14,6 +15,7 @@
 #include "apps/osgraytracebench/modes/PickMode.h"
 #include "apps/osgraytracebench/modes/ReprojectMode.h"
 #include "apps/osgraytracebench/modes/TrafficMode.h"
+#include "apps/osgraytracebench/modes/TransportMode.h"
 #include "apps/osgraytracebench/modes/UpdateMode.h"
 #include "apps/osgraytracebench/modes/UpsampleMode.h"
 #include "apps/osgraytracebench/photons/PhotonsMode.h"
@@ -129,6 +131,11 @@ Run addLamps(CLI::App& mode)
     return addParts<measureLamps>(mode, "hall, rooms, points, triangles, million");
 }
 
+Run addDaylight(CLI::App& mode)
+{
+    return addParts<measureDaylight>(mode, "window, pane, sky, panel, Cornell");
+}
+
 Run addFeatures(CLI::App& mode)
 {
     return addParts<measureFeatures>(mode, "textures, alpha, proxy, captures");
@@ -154,6 +161,20 @@ Run addPhotons(CLI::App& mode)
     addNumber(mode, "--photons", options->photons, 1000, 10000000, "photons of look-ups");
     mode.add_option("--only", options->only, "parts whose name holds this: lookup, tracing, error");
     return [=] { return runRows([&](Rows& rows) { measurePhotons(*options, rows); }, *json); };
+}
+
+Run addTransport(CLI::App& mode)
+{
+    const auto json = addJson(mode);
+    const auto options = std::make_shared<TransportOptions>();
+    addNumber(mode, "--width", options->width, 8, 4096, "width of the pictures [pixels]");
+    addNumber(mode, "--seconds", options->seconds, 0.125, 86400.0, "budget of a picture [s]");
+    addNumber(mode, "--seeds", options->seeds, 2, 64, "pictures of each method");
+    addNumber(mode, "--reference-seconds", options->referenceSeconds, 1.0, 86400.0,
+              "time for each reference that is rendered [s]");
+    mode.add_option("--only", options->only,
+                    "scenes whose name holds this: two-spheres, ajar, window, city, ...");
+    return [=] { return runRows([&](Rows& rows) { measureTransport(*options, rows); }, *json); };
 }
 
 Run addUpsample(CLI::App& mode)
@@ -290,6 +311,8 @@ public:
     {
         add("limit", "a whole frame, a path traced one and a build against Embree alone", addLimit);
         add("lamps", "error and cost of path tracing under many lamps", addLamps);
+        add("daylight", "error and cost of rooms with a window, skies and large panels",
+            addDaylight);
         add("features", "what features cost a scene that does not use them", addFeatures);
         add("photons", "photon maps against a plain grid and Embree alone; error against time",
             addPhotons);
@@ -308,6 +331,8 @@ public:
         add("reproject", "what a moving view gains from its earlier frames, and what they cost",
             addReproject);
         add("traffic", "what a still view keeps of its samples while some cars move", addTraffic);
+        add("transport", "error times time of scenes that are hard for light transport",
+            addTransport);
         add("report", "error against time, of all methods on many scenes", addReport);
         add("compare", "which rows of two reports differ by more than their noise", addCompare);
         application.require_subcommand(1);

@@ -1,6 +1,7 @@
 // main.cpp - osgraytrace_make_data FOLDER: writes our own scenes there as .osgt, and a sky.
 // SPDX-License-Identifier: MIT
 #include "Scenes.h"
+#include "Transport.h"
 
 #include "apps/common/PluginPath.h"
 
@@ -36,6 +37,11 @@ int main(int argc, char** argv)
         {"glasses.osgt", glasses()},
         {"prism.osgt", prism()},
         {"terrace.osgt", terrace()},
+        {"ajar.osgt", ajar(0.08, false)},
+        {"pool.osgt", pool(0.03)},
+        {"necklace.osgt", necklace(0.2)},
+        {"veach_plates.osgt", veachPlates(1.0)},
+        {"veach_room.osgt", veachRoom(0.3)},
     };
     // Images are stored by their names.
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=UseExternal");

@@ -139,7 +139,7 @@ std::size_t Accessor::elementSize() const
     return components * sizeOf(type);
 }
 
-Accessor AccessorReader::open(const JsonPlace& index) const
+Accessor AccessorReader::layout(const JsonPlace& index) const
 {
     const std::size_t number = index.index(_document->count("accessors"));
     Accessor accessor(_document->element("accessors", number));
@@ -154,7 +154,17 @@ Accessor AccessorReader::open(const JsonPlace& index) const
     if (accessor.components == 16 && accessor.type != ComponentType::Float)
         place.refuse("has matrices of integers");
     accessor.stride = accessor.elementSize();
-    if (place.find("bufferView")) setBytes(accessor, place, *_document);
+    return accessor;
+}
+
+Accessor AccessorReader::open(const JsonPlace& index) const
+{
+    Accessor accessor = layout(index);
+    const auto decoded = _decoded.find(index.index(SIZE_MAX));
+    if (decoded != _decoded.end())
+        accessor.bytes = decoded->second;
+    else if (accessor.place.find("bufferView"))
+        setBytes(accessor, accessor.place, *_document);
     return accessor;
 }
 

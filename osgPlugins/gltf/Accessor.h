@@ -6,6 +6,7 @@
 #include "osgPlugins/gltf/Document.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -44,7 +45,10 @@ class AccessorReader
 public:
     explicit AccessorReader(Document& document) : _document(&document) {}
 
-    /// Returns the layout of an accessor. Throws GltfError.
+    /// Returns the layout of an accessor without its bytes. Throws GltfError.
+    Accessor layout(const JsonPlace& index) const;
+
+    /// Returns the layout of an accessor with its bytes. Throws GltfError.
     Accessor open(const JsonPlace& index) const;
 
     /// Returns the layout; throws GltfError as well if the accessor has other components.
@@ -59,6 +63,10 @@ public:
 
     /// Returns the elements of a scalar accessor of unsigned integers.
     std::vector<std::uint32_t> indices(const Accessor& accessor);
+
+    /// Sets the bytes of an accessor, decoded and without gaps, in place of those of its view.
+    void setDecoded(std::size_t accessor, const ByteRange& bytes) { _decoded[accessor] = bytes; }
+    void forgetDecoded() { _decoded.clear(); }
 
     Document& document() const { return *_document; }
 
@@ -76,6 +84,7 @@ private:
 
     Document* _document;
     Interleaved _interleaved;
+    std::map<std::size_t, ByteRange> _decoded; ///< by accessor
 };
 
 } // namespace osgRayTrace::gltf

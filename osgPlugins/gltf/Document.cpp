@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/Document.h"
 
+#include "osgPlugins/gltf/DracoMesh.h"
 #include "osgPlugins/gltf/GltfError.h"
+#include "osgPlugins/gltf/MeshoptView.h"
 #include "osgPlugins/gltf/Uri.h"
 
 #include <osgDB/FileNameUtils>
@@ -27,6 +29,7 @@ constexpr std::size_t kMostNotes = 40;
 
 // What a file may make: so many times its own bytes, and so many more.
 constexpr std::uint64_t kShare = 16;
+constexpr std::uint64_t kCompressedShare = 80; ///< meshoptimizer's bytes grow to 64 times at most
 constexpr std::uint64_t kSmallFile = std::uint64_t(64) << 20;
 
 /// Returns a little-endian number of a file.
@@ -49,6 +52,23 @@ std::shared_ptr<ByteSource> fileOf(const std::string& path, const JsonPlace& uri
     {
         uri.refuse(error.what());
     }
+}
+
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
+
+/// Returns whether a file says that it uses an extension.
+bool uses(const JsonPlace& root, const std::string& name)
+{
+    for (std::size_t i = 0; i < root.sizeOf("extensionsUsed"); ++i)
+        if (root.at("extensionsUsed")[i].text() == name) return true;
+    return false;
+}
+
+/// Returns whether a buffer has no bytes: it stands for what its views are when decompressed.
+bool isFallback(const JsonPlace& buffer)
+{
+    const auto extension = buffer.extension(kMeshopt);
+    return readsMeshopt() && extension && extension->flagOr("fallback", false);
 }
 
 /// Returns the number before the first dot of a version.
@@ -92,9 +112,18 @@ Document::Document(const std::shared_ptr<ByteSource>& file, const std::string& f
         readText(file, 0, file->size());
     checkAsset();
     openBuffers();
-    _mayTake = kSmallFile + kShare * file->size();
+    limitBytes(file);
+}
+
+/// Sets how many bytes the scene may take, in proportion to those of the file and its buffers.
+void Document::limitBytes(const std::shared_ptr<ByteSource>& file)
+{
+    const bool compressed = (readsMeshopt() && uses(root(), kMeshopt)) ||
+                            (readsDraco() && uses(root(), "KHR_draco_mesh_compression"));
+    const std::uint64_t share = compressed ? kCompressedShare : kShare;
+    _mayTake = kSmallFile + share * file->size();
     for (const ByteRange& buffer : _buffers)
-        if (buffer.source != file) _mayTake += kShare * buffer.size;
+        if (buffer.source && buffer.source != file) _mayTake += share * buffer.size;
 }
 
 void Document::readBinary(const std::shared_ptr<ByteSource>& file)
@@ -150,7 +179,9 @@ void Document::openBuffers()
         const std::uint64_t size = buffer.at("byteLength").whole();
         const auto uri = buffer.find("uri");
         ByteRange range;
-        if (!uri && i == 0 && _binary.source)
+        if (!uri && isFallback(buffer))
+            range.size = size;
+        else if (!uri && i == 0 && _binary.source)
             range = _binary;
         else if (!uri)
             buffer.refuse("has neither a URI nor the chunk of a .glb file");
@@ -176,7 +207,33 @@ JsonPlace Document::element(const char* array, std::size_t index) const
 ByteRange Document::bufferView(std::size_t index)
 {
     const JsonPlace view = element("bufferViews", index);
+    const auto extension = view.extension(kMeshopt);
+    if (!extension || !readsMeshopt()) return partOf(view);
+    ByteRange& held = _decodedViews[index];
+    if (!held.source) held = decodedView(view, *extension);
+    return held;
+}
+
+/// Returns the bytes of a view whose bytes are compressed. Throws GltfError.
+ByteRange Document::decodedView(const JsonPlace& view, const JsonPlace& extension)
+{
+    const std::uint64_t size = view.at("byteLength").whole();
+    const MeshoptLayout layout = meshoptLayout(extension, size);
+    if (view.wholeOr("byteStride", layout.stride) != layout.stride)
+        view.at("byteStride").refuse("is not that of the compressed bytes");
+    const ByteRange from = partOf(extension);
+    take(from.size + size, extension);
+    std::string compressed(static_cast<std::size_t>(from.size), '\0');
+    from.read(0, compressed.size(), compressed.data());
+    std::string bytes = decodeMeshopt(compressed, layout, extension);
+    return {std::make_shared<MemoryBytes>(std::move(bytes)), 0, size};
+}
+
+/// Returns the bytes that an object with buffer, byteOffset and byteLength means. Throws GltfError.
+ByteRange Document::partOf(const JsonPlace& view) const
+{
     const ByteRange& buffer = _buffers[view.at("buffer").index(_buffers.size())];
+    if (!buffer.source) view.at("buffer").refuse("is a buffer without bytes");
     const std::uint64_t offset = view.wholeOr("byteOffset", 0);
     const std::uint64_t size = view.at("byteLength").whole();
     if (offset > buffer.size || size > buffer.size - offset)

@@ -9,6 +9,7 @@
 #include <osgDB/Options>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
     /// Returns the number of elements of an array at the top.
     std::size_t count(const char* array) const { return root().sizeOf(array); }
 
-    /// Returns the bytes of a bufferView.
+    /// Returns the bytes of a bufferView, decoded if they are compressed. Throws GltfError.
     ByteRange bufferView(std::size_t index);
 
     /// Returns the path of a file beside the model. Throws GltfError if the URI may not be
@@ -58,6 +59,9 @@ public:
     /// taken, if that is out of proportion to the size of the file: accessors may share their
     /// bytes, and may have none.
     void take(std::uint64_t bytes, const JsonPlace& place);
+
+    /// Returns how many bytes may still be taken.
+    std::uint64_t room() const { return _mayTake - _taken; }
 
     /// Records, once, what is not read as it stands in the file.
     void note(const std::string& text);
@@ -71,10 +75,14 @@ private:
                   std::uint64_t size);
     void checkAsset() const;
     void openBuffers();
+    void limitBytes(const std::shared_ptr<ByteSource>& file);
+    ByteRange partOf(const JsonPlace& view) const;
+    ByteRange decodedView(const JsonPlace& view, const JsonPlace& extension);
 
     std::shared_ptr<const Json> _json;
-    std::vector<ByteRange> _buffers;
-    ByteRange _binary; ///< the chunk of a .glb; without a source: none
+    std::vector<ByteRange> _buffers; ///< without a source: its views are compressed, elsewhere
+    std::map<std::size_t, ByteRange> _decodedViews; ///< by bufferView
+    ByteRange _binary;                              ///< the chunk of a .glb; without a source: none
     GltfOptions _options;
     std::string _folder; ///< ends with a slash; empty: there is none
     std::uint64_t _taken = 0, _mayTake = 0;

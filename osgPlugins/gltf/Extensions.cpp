@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/Extensions.h"
 
+#include "osgPlugins/gltf/DracoMesh.h"
+#include "osgPlugins/gltf/MeshoptView.h"
+#include "osgPlugins/gltf/WebpImage.h"
+
 #include <algorithm>
 #include <set>
 
@@ -34,6 +38,15 @@ bool contains(const char* const (&names)[count], const std::string& name)
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
+/// Returns whether this build reads an extension: some need libraries that are optional.
+bool isRead(const std::string& name)
+{
+    if (name == "KHR_draco_mesh_compression") return readsDraco();
+    if (name == "EXT_meshopt_compression") return readsMeshopt();
+    if (name == "EXT_texture_webp") return readsWebp();
+    return contains(kRead, name);
+}
+
 } // namespace
 
 void checkExtensions(Document& document)
@@ -42,14 +55,14 @@ void checkExtensions(Document& document)
     for (std::size_t i = 0; i < root.sizeOf("extensionsRequired"); ++i)
     {
         const JsonPlace place = root.at("extensionsRequired")[i];
-        if (!contains(kRead, place.text()) && !contains(kLeftOut, place.text()))
+        if (!isRead(place.text()) && !contains(kLeftOut, place.text()))
             place.refuse("'" + place.text() + "' is required, and is not read");
     }
     std::set<std::string> ignored;
     for (std::size_t i = 0; i < root.sizeOf("extensionsUsed"); ++i)
     {
         const std::string& name = root.at("extensionsUsed")[i].text();
-        if (!contains(kRead, name)) ignored.insert(name);
+        if (!isRead(name)) ignored.insert(name);
     }
     std::string list;
     for (const std::string& name : ignored)

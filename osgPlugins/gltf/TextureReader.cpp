@@ -1,10 +1,11 @@
-// TextureReader.cpp - reads images through osgDB. Layer: osgPlugins.
+// TextureReader.cpp - reads images through osgDB, and WebP without it. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/TextureReader.h"
 
 #include "osgPlugins/gltf/GltfError.h"
 #include "osgPlugins/gltf/ImageSize.h"
 #include "osgPlugins/gltf/Uri.h"
+#include "osgPlugins/gltf/WebpImage.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
@@ -80,6 +81,14 @@ osgDB::ReaderWriter::ReadResult readFile(const std::string& path, osgDB::ReaderW
     return read;
 }
 
+/// Returns the index of a texture's image: that of EXT_texture_webp if it can be read.
+std::optional<JsonPlace> sourceOf(const JsonPlace& texture)
+{
+    const auto webp = texture.extension("EXT_texture_webp");
+    const auto source = webp && readsWebp() ? webp->find("source") : std::nullopt;
+    return source ? source : texture.find("source");
+}
+
 } // namespace
 
 std::optional<TextureUse> TextureReader::read(const JsonPlace& holder, const char* member)
@@ -108,7 +117,7 @@ osg::ref_ptr<osg::Texture2D> TextureReader::texture(const JsonPlace& index)
     const osg::ref_ptr<osg::Texture2D> made = new osg::Texture2D;
     made->setName(place.textOr("name", ""));
     made->setResizeNonPowerOfTwoHint(false);
-    if (const auto source = place.find("source"))
+    if (const auto source = sourceOf(place))
         made->setImage(image(*source).get());
     else
         _document->note(place.path() + ": has no source that is read");
@@ -155,7 +164,7 @@ osg::ref_ptr<osg::Image> TextureReader::image(const JsonPlace& index)
 /// Returns whether an image and all before it are of sizes within reason; notes it if not.
 bool TextureReader::mayDecode(const std::string& begin, const JsonPlace& place)
 {
-    const std::uint64_t pixels = pixelsOf(begin);
+    const std::uint64_t pixels = isWebp(begin) ? webpPixels(begin) : pixelsOf(begin);
     const bool good = pixels <= kMostPixels && pixels <= kMostPixelsOfAll - _pixels;
     if (pixels == 0)
         _document->note(place.path() + ": does not say its size in its first MiB");
@@ -194,11 +203,39 @@ std::optional<std::string> TextureReader::beginOf(const std::string& path, const
     }
 }
 
+/// Decodes a WebP image; null, with a note, if it is not to be read or cannot be.
+osg::ref_ptr<osg::Image> TextureReader::webpImage(const std::string& bytes, const JsonPlace& place)
+{
+    if (!mayDecode(bytes, place)) return nullptr;
+    const osg::ref_ptr<osg::Image> image = decodeWebp(bytes);
+    if (!image)
+    {
+        _document->note(place.path() + ": its image cannot be read");
+        return nullptr;
+    }
+    image->setWriteHint(osg::Image::STORE_INLINE); // OSG's readers cannot read its file
+    return image;
+}
+
+/// Reads a WebP image file.
+osg::ref_ptr<osg::Image> TextureReader::webpFile(const std::string& path, const JsonPlace& uri)
+{
+    FileBytes file(path);
+    _document->take(file.size(), uri);
+    std::string bytes(static_cast<std::size_t>(file.size()), '\0');
+    file.read(0, bytes.size(), bytes.data());
+    const osg::ref_ptr<osg::Image> image = webpImage(bytes, uri);
+    if (!image) return namedImage(path);
+    image->setFileName(path);
+    return image;
+}
+
 /// Reads an image file by the caller's options.
 osg::ref_ptr<osg::Image> TextureReader::imageBeside(const JsonPlace& uri)
 {
     const std::string path = _document->pathBeside(uri);
     const std::optional<std::string> begin = beginOf(path, uri);
+    if (begin && readsWebp() && isWebp(*begin)) return webpFile(path, uri);
     osgDB::ReaderWriter* plugin = begin ? pluginFor(*begin, uri) : nullptr;
     if (!plugin) return namedImage(path);
     osgDB::ReaderWriter::ReadResult read = readFile(path, *plugin, _document->options().caller);
@@ -221,6 +258,7 @@ osg::ref_ptr<osg::Image> TextureReader::embeddedImage(const JsonPlace& place)
         bytes.resize(static_cast<std::size_t>(range.size));
         range.read(0, bytes.size(), bytes.data());
     }
+    if (readsWebp() && isWebp(bytes)) return webpImage(bytes, place);
     osgDB::ReaderWriter* plugin = pluginFor(bytes, place);
     if (!plugin) return nullptr;
     std::istringstream stream(bytes, std::ios::binary);

@@ -47,6 +47,8 @@ private:
     osg::ref_ptr<osg::Image> image(const JsonPlace& place);
     osg::ref_ptr<osg::Image> imageBeside(const JsonPlace& uri);
     osg::ref_ptr<osg::Image> embeddedImage(const JsonPlace& image);
+    osg::ref_ptr<osg::Image> webpImage(const std::string& bytes, const JsonPlace& place);
+    osg::ref_ptr<osg::Image> webpFile(const std::string& path, const JsonPlace& uri);
     bool mayDecode(const std::string& begin, const JsonPlace& place);
     osgDB::ReaderWriter* pluginFor(const std::string& begin, const JsonPlace& place);
     std::optional<std::string> beginOf(const std::string& path, const JsonPlace& uri);

@@ -234,6 +234,7 @@ void VertexReader::checkCounts(const Vertices& vertices, const JsonPlace& primit
 
 Vertices VertexReader::read(const JsonPlace& primitive)
 {
+    _draco.open(primitive);
     const JsonPlace attributes = primitive.at("attributes");
     const auto has = [&attributes](const std::string& name, std::size_t set)
     { return attributes.find((name + std::to_string(set)).c_str()); };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgPlugins/gltf/Accessor.h"
+#include "osgPlugins/gltf/DracoPrimitive.h"
 
 #include <osg/Array>
 #include <osg/PrimitiveSet>
@@ -48,7 +49,10 @@ struct Vertices
 class VertexReader
 {
 public:
-    explicit VertexReader(Document& document) : _accessors(document) {}
+    explicit VertexReader(Document& document) : _accessors(document), _draco(_accessors) {}
+
+    VertexReader(const VertexReader&) = delete;
+    VertexReader& operator=(const VertexReader&) = delete;
 
     /// Reads a primitive. Accessors that several primitives use give one array. Throws GltfError.
     Vertices read(const JsonPlace& primitive);
@@ -72,6 +76,7 @@ private:
     void checkCounts(const Vertices& vertices, const JsonPlace& primitive) const;
 
     AccessorReader _accessors;
+    DracoPrimitive _draco;
     std::map<std::pair<std::size_t, Role>, osg::ref_ptr<osg::Array>> _arrays;
     std::map<std::tuple<std::size_t, GLenum, std::size_t>, osg::ref_ptr<osg::PrimitiveSet>>
         _primitives; ///< by accessor, mode and number of vertices

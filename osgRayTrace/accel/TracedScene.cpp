@@ -79,7 +79,7 @@ struct TracedScene::Implementation
     void forgetGone();
     void makeFlat(const Implementation* old, BuildCounts& counts);
     void makeTopLevel(const Implementation* old, BuildCounts& counts);
-    void makeTables(const Implementation* old);
+    void makeTables(const Implementation* old, const Workers& workers);
     void findFiltered();
     float reach() const;
 };
@@ -268,7 +268,7 @@ void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildC
 
 /// Makes the tables of materials and lights and the traits. Materials and traits are shared with
 /// the previous scene if their sources have not changed.
-void TracedScene::Implementation::makeTables(const Implementation* old)
+void TracedScene::Implementation::makeTables(const Implementation* old, const Workers& workers)
 {
     const Stamp stamp = old ? old->scene->changed : 0;
     sameMaterials = old && scene->changed > stamp && scene->textures == old->scene->textures &&
@@ -278,8 +278,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old)
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
-    lights =
-        std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr, &materials->table);
+    lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr,
+                                          &materials->table, &workers);
     traits = sameTraits ? old->traits : sceneTraits(*scene, sameMeshes ? &old->traits : nullptr);
 }
 
@@ -318,7 +318,7 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
 
     BuildCounts counts;
     built.compareInstances(old);
-    built.makeTables(old);
+    built.makeTables(old, *workers);
     built.tangents = TangentTable(*built.scene, old ? &old->tangents : nullptr, *workers);
     built.findFiltered();
     built.findAttached();

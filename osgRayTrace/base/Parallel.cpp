@@ -154,4 +154,16 @@ void Workers::run(const std::function<void()>& body) const
         });
 }
 
+void forEachPart(const Workers* workers, std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body)
+{
+    const std::size_t parts = (count + grain - 1) / grain;
+    const auto part = [&](std::size_t k) { body(k * grain, std::min(count, (k + 1) * grain)); };
+    if (workers && parts > 1)
+        workers->forEach(parts, part);
+    else
+        for (std::size_t k = 0; k < parts; ++k)
+            part(k);
+}
+
 } // namespace osgRayTrace::engine

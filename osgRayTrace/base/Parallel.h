@@ -39,4 +39,9 @@ private:
     std::unique_ptr<Implementation> _implementation;
 };
 
+/// Calls body(begin, end) for the parts of [0,count) that hold grain indices each, the last one
+/// perhaps fewer, on the workers; in order on the calling thread if they are null.
+void forEachPart(const Workers* workers, std::size_t count, std::size_t grain,
+                 const std::function<void(std::size_t, std::size_t)>& body);
+
 } // namespace osgRayTrace::engine

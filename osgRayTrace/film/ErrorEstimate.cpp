@@ -69,7 +69,7 @@ void readHalves(const Film& film, int tile, TileHalves& halves)
     }
     const int passes = film.tilePasses(tile);
     const double scale = film.errorScale(tile);
-    halves.firstWeight = static_cast<float>((passes + 1) / 2) / static_cast<float>(passes);
+    halves.firstWeight = static_cast<float>(film.halfPasses(tile, 0)) / static_cast<float>(passes);
     halves.squareScale = scale * scale;
     halves.pixels = int64_t(columns) * rows;
 }
@@ -234,7 +234,7 @@ double medianOf(std::vector<double> values)
 ErrorEstimate estimateError(const Film& film, const Workers& workers,
                             const std::vector<DiscDifferences>& differences)
 {
-    if (film.passes() < 2) return {};
+    if (film.passes() < 2 || !(film.errorScale(0) > 0.0f)) return {};
     std::vector<TileError> tiles(static_cast<std::size_t>(film.tileCount()));
     workers.forEach(tiles.size(),
                     [&](std::size_t tile)

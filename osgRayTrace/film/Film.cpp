@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <new>
 
 namespace osgRayTrace::engine
@@ -49,12 +50,12 @@ float* floatsOf(TileRgba& values)
 
 } // namespace
 
-void Film::reset(int width, int height)
+void Film::reset(int width, int height, FilmSums kind)
 {
     if (int64_t(width) * height > kMaxPixels)
         throw EngineError(StatusCode::OutOfMemory, "the image has more than 2^28 pixels");
-    const bool resized = width != _width || height != _height;
-    if (resized)
+    const bool kept = width == _width && height == _height && kind == sumsKind();
+    if (!kept)
     {
         _width = _height = _tilesX = _tilesY = 0;
         const int tilesX = (width + kTileSize - 1) / kTileSize;
@@ -64,9 +65,14 @@ void Film::reset(int width, int height)
         {
             // Values are written before they are read, tile by tile: by the first pass of each
             // half.
-            _sums = UnclearedArray<RgbaLanes>(tiles * 2 * kTileBlocks);
+            _sums = {};
+            _exact = {};
+            if (kind == FilmSums::Exact)
+                _exact = ExactSums(tiles);
+            else
+                _sums = UnclearedArray<RgbaLanes>(tiles * 2 * kTileBlocks);
             _depth = UnclearedArray<float>(tiles * kTilePixels);
-            _passes.assign(tiles, 0);
+            _passes.assign(tiles * 2, 0);
         }
         catch (const std::bad_alloc&)
         {
@@ -84,7 +90,10 @@ void Film::reset(int width, int height)
 
 int Film::passes() const
 {
-    return _passes.empty() ? 0 : *std::min_element(_passes.begin(), _passes.end());
+    int least = tileCount() > 0 ? tilePasses(0) : 0;
+    for (int tile = 1; tile < tileCount(); ++tile)
+        least = std::min(least, tilePasses(tile));
+    return least;
 }
 
 float* Film::sums(int tile, int half)
@@ -102,32 +111,44 @@ const float* Film::sums(int tile, int half) const
 void Film::beginPass()
 {
     const int next = passes();
-    const bool folds = (next >> 1) % kFoldPasses == kFoldPasses - 1;
+    const bool folds = sumsKind() == FilmSums::Fast && (next >> 1) % kFoldPasses == kFoldPasses - 1;
     if (folds && _totals.empty()) _totals.assign(_sums.size() * kChannels * kLanes, 0.0);
 }
 
-RgbaLanes* Film::firstPassStorage(int tile)
+RgbaLanes* Film::firstPassStorage(int tile, int pass)
 {
-    const int passes = tilePasses(tile);
-    return passes < 2 ? reinterpret_cast<RgbaLanes*>(sums(tile, passes)) : nullptr;
+    const int half = pass & 1;
+    const bool first = sumsKind() == FilmSums::Fast && halfPasses(tile, half) == 0;
+    return first ? reinterpret_cast<RgbaLanes*>(sums(tile, half)) : nullptr;
 }
 
-void Film::addPass(int tile, const RgbaLanes* values)
+int Film::addPass(int tile, int pass, const RgbaLanes* values)
 {
-    if (RgbaLanes* storage = firstPassStorage(tile))
+    int leftOut = 0;
+    const int half = pass & 1;
+    if (sumsKind() == FilmSums::Exact)
+        leftOut = _exact.add(static_cast<std::size_t>(tile), half, halfPasses(tile, half), values);
+    else if (RgbaLanes* storage = firstPassStorage(tile, pass))
         std::copy(values, values + kTileBlocks, storage);
     else
-        add(sums(tile, tilePasses(tile) & 1), values[0].r.v);
-    finishPass(tile);
+        add(sums(tile, half), values[0].r.v);
+    finishPass(tile, pass);
+    return leftOut;
 }
 
-void Film::finishPass(int tile)
+void Film::finishPass(int tile, int pass)
 {
-    int& passes = _passes[static_cast<std::size_t>(tile)];
-    const int half = passes & 1;
-    const int index = passes >> 1;
-    ++passes;
-    if (index % kFoldPasses == kFoldPasses - 1) fold(tile, half);
+    const int half = pass & 1;
+    const int passes = ++_passes[static_cast<std::size_t>(tile) * 2 + (pass & 1)];
+    if (sumsKind() == FilmSums::Fast && passes % kFoldPasses == 0) fold(tile, half);
+}
+
+void Film::setHalf(int tile, int half, int passes, const ExactSum* sums)
+{
+    const auto t = static_cast<std::size_t>(tile);
+    _passes[t * 2 + static_cast<std::size_t>(half)] = passes;
+    for (std::size_t i = 0; i < ExactSums::kValues; ++i)
+        _exact.set(t, half, i, sums[i]);
 }
 
 void Film::fold(int tile, int half)
@@ -141,10 +162,15 @@ void Film::fold(int tile, int half)
 
 void Film::halfMean(int tile, int half, TileRgba& values) const
 {
-    const int count = (tilePasses(tile) + 1 - half) / 2;
+    const int count = halfPasses(tile, half);
     if (count == 0)
     {
         std::fill_n(floatsOf(values), kHalfFloats, 0.0f);
+        return;
+    }
+    if (sumsKind() == FilmSums::Exact)
+    {
+        _exact.means(static_cast<std::size_t>(tile), half, count, floatsOf(values));
         return;
     }
     const float* floats = sums(tile, half);
@@ -162,9 +188,14 @@ void Film::halfMean(int tile, int half, TileRgba& values) const
 void Film::mean(int tile, TileRgba& values) const
 {
     const int count = tilePasses(tile);
-    if (count < 2)
+    if (halfPasses(tile, 0) == 0 || halfPasses(tile, 1) == 0)
     {
-        halfMean(tile, 0, values);
+        halfMean(tile, halfPasses(tile, 0) == 0 ? 1 : 0, values);
+        return;
+    }
+    if (sumsKind() == FilmSums::Exact)
+    {
+        _exact.means(static_cast<std::size_t>(tile), count, floatsOf(values));
         return;
     }
     if (count < 2 * kFoldPasses - 1)
@@ -190,14 +221,21 @@ void Film::halfMeans(int tile, TileRgba& first, TileRgba& second) const
 
 float Film::errorScale(int tile) const
 {
-    const int passes = tilePasses(tile);
-    if (passes < 2) return 0.0f;
-    if (passes % 2 == 0) return 0.5f;
+    const int first = halfPasses(tile, 0), second = halfPasses(tile, 1);
+    if (first == 0 || second == 0) return 0.0f;
+    if (first == second) return 0.5f;
+    if (std::abs(first - second) > 1)
+    {
+        // Parts of an image. Means of n and m passes have variances s^2 / n and s^2 / m, and that
+        // of all has s^2 / (n + m).
+        const double a = first, b = second;
+        return static_cast<float>(std::sqrt(a * b) / (a + b));
+    }
     // One half has n passes and a mean of variance V, the other half has one pass more, of variance
     // s^2 alone. V is s^2 / n for independent passes and down to s^2 / n^2 for points that fill the
     // square evenly, whose mean a last pass makes worse. The code takes s^2 / n^1.5, about 3 % of
     // variance from either.
-    const double n = passes / 2, last = n * std::sqrt(n); // last: s^2 / V
+    const double n = std::min(first, second), last = n * std::sqrt(n); // last: s^2 / V
     const double variance = (2.0 * n * n + last) / ((2.0 * n + 1.0) * (2.0 * n + 1.0));
     const double difference = (n * n + last) / ((n + 1.0) * (n + 1.0)) + 1.0;
     return static_cast<float>(std::sqrt(variance / difference));

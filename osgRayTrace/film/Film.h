@@ -3,9 +3,9 @@
 #pragma once
 
 #include "osgRayTrace/base/Assert.h"
-#include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/LargeArray.h"
-#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/film/ExactSums.h"
+#include "osgRayTrace/film/TileLayout.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,46 +13,23 @@
 namespace osgRayTrace::engine
 {
 
-constexpr int kTileSize = 16; ///< [pixels] along a side
-constexpr int kTilePixels = kTileSize * kTileSize;
-constexpr int kBlockSize = 4; ///< a block of lanes is 4 x 4 pixels
-constexpr int kTileBlocks = kTilePixels / kLanes;
-
-/// Returns the number of tiles along an image's side.
-inline int tilesAlong(int pixels)
+/// Tells how a film adds up passes.
+enum class FilmSums : uint8_t
 {
-    return (pixels + kTileSize - 1) / kTileSize;
-}
-
-/// Returns the position of a lane of a block within its tile, in pixels.
-OSGRAYTRACE_INLINE int laneX(int block, int lane)
-{
-    return (block & 3) * kBlockSize + (lane & 3);
-}
-OSGRAYTRACE_INLINE int laneY(int block, int lane)
-{
-    return (block >> 2) * kBlockSize + (lane >> 2);
-}
-
-/// Holds RGBA of the pixels of a block.
-struct RgbaLanes
-{
-    FloatLanes r, g, b, a;
+    Fast,  ///< float, with totals in double: for images that are shown
+    Exact, ///< fixed point: the sums do not depend on the order of the passes
 };
 
-/// Holds the radiance of one pass for a tile, block by block.
-using TileRgba = RgbaLanes[kTileBlocks];
-
-/// Holds the sums of two halves: passes 0, 2, 4, ... go to the first half, the others to the
-/// second. The halves are sampled independently, so that for the mean m = (a + b)/2 of their means
-/// the variance estimate (a - b)^2/4 is unbiased [Rousselle12, sect. 3]; see errorScale for an odd
-/// number of passes. Tiles are independent: different threads may write different tiles. Sums of
-/// a bounded number of passes are float, their totals double.
+/// Holds the sums of two halves: even passes go to the first half, the others to the second. The
+/// halves are sampled independently, so that for the mean m = (a + b)/2 of their means the variance
+/// estimate (a - b)^2/4 is unbiased [Rousselle12, sect. 3]; see errorScale for halves of different
+/// numbers of passes. Tiles are independent: different threads may write different tiles. Fast sums
+/// of a bounded number of passes are float, their totals double.
 class Film
 {
 public:
     /// Clears the image. Throws EngineError(OutOfMemory) past kMaxPixels or when memory runs out.
-    void reset(int width, int height);
+    void reset(int width, int height, FilmSums kind = FilmSums::Fast);
 
     static constexpr int64_t kMaxPixels = int64_t(1) << 28;
 
@@ -63,22 +40,21 @@ public:
     int tileY(int tile) const { return tile / _tilesX * kTileSize; } ///< bottom pixel row
 
     /// Returns the complete passes of a tile; tiles differ after a cancelled pass.
-    int tilePasses(int tile) const
-    {
-        OSGRAYTRACE_ASSERT(tile >= 0 && tile < tileCount());
-        return _passes[static_cast<std::size_t>(tile)];
-    }
+    int tilePasses(int tile) const { return halfPasses(tile, 0) + halfPasses(tile, 1); }
     /// Returns the number of passes that every tile has.
     int passes() const;
+
+    /// Returns how the passes are added up.
+    FilmSums sumsKind() const { return _exact.empty() ? FilmSums::Fast : FilmSums::Exact; }
 
     /// Prepares a pass; called before the tiles of the pass, by one thread.
     void beginPass();
 
-    /// Returns kTileBlocks blocks into which the next pass of a tile can be written without a copy.
-    /// finishPass completes the pass. Null if the tile's half has passes already: the caller then
-    /// needs addPass.
-    RgbaLanes* firstPassStorage(int tile);
-    void finishPass(int tile);
+    /// Returns kTileBlocks blocks into which a pass of a tile can be written without a copy;
+    /// finishPass then completes the pass. Null if addPass has to be called, as for all passes but
+    /// the first of each half, and for exact sums.
+    RgbaLanes* firstPassStorage(int tile, int pass);
+    void finishPass(int tile, int pass);
 
     /// Says that the window depths of the image before reset() hold on in tiles without a pass.
     void holdDepths() { _holdsDepths = true; }
@@ -86,8 +62,15 @@ public:
     /// Returns whether the tile has window depths.
     bool hasDepth(int tile) const { return _holdsDepths || tilePasses(tile) > 0; }
 
-    /// Adds the next pass of a tile.
-    void addPass(int tile, const RgbaLanes* values);
+    /// Adds a pass of a tile: the number of the pass tells the half. Returns how many values exact
+    /// sums cannot hold and leave out: those that are not finite, or from 2^40 on.
+    int addPass(int tile, int pass, const RgbaLanes* values);
+
+    /// Returns the sums of an exact film.
+    const ExactSums& exactSums() const { return _exact; }
+
+    /// Replaces a half of a tile of an exact film. sums: ExactSums::kValues of them.
+    void setHalf(int tile, int half, int passes, const ExactSum* sums);
 
     /// Returns the window depth of the tile's pixels, lanes of block b at b*kLanes, which is
     /// written with the tile's first pass.
@@ -100,13 +83,20 @@ public:
     /// Returns the mean radiance of a tile's passes; transparent black before the first.
     void mean(int tile, TileRgba& values) const;
 
-    /// Returns the means of the two halves; needs two passes.
+    /// Returns the means of the two halves; needs a pass of each.
     void halfMeans(int tile, TileRgba& first, TileRgba& second) const;
 
     /// Returns the factor of |a - b| that makes it the standard error of the mean of all passes,
     /// with a and b the halves' means. The factor is 1/2, and about 1/2 for an odd number of
-    /// passes, because the halves then differ in size; it is 0 below two passes.
+    /// passes, because the halves then differ in size; it is 0 if a half has no pass.
     float errorScale(int tile) const;
+
+    /// Returns the passes of a half of a tile.
+    int halfPasses(int tile, int half) const
+    {
+        OSGRAYTRACE_ASSERT(tile >= 0 && tile < tileCount());
+        return _passes[static_cast<std::size_t>(tile) * 2 + static_cast<std::size_t>(half)];
+    }
 
 private:
     static constexpr int kFoldPasses = 128; ///< passes of a half that are summed in float
@@ -123,7 +113,8 @@ private:
     UnclearedArray<RgbaLanes> _sums; ///< tile, half, block
     std::vector<double> _totals;     ///< tile, half, block; empty until a half has kFoldPasses
     UnclearedArray<float> _depth;    ///< tile, block, lane
-    std::vector<int> _passes;        ///< passes of a tile
+    ExactSums _exact;                ///< in place of _sums and _totals; empty if these are used
+    std::vector<int> _passes;        ///< tile, half
     bool _holdsDepths = false;
 };
 

@@ -18,6 +18,8 @@ enum Dimension : uint32_t
     DimensionBsdfLobe = 1,      ///< x: lobe, y: Russian roulette
     DimensionLightPoint = 2,
     DimensionLightChoice = 3,
+
+    DimensionDiscEdge = 0x40000000, ///< of a pixel, above those of all bounces
 };
 constexpr uint32_t kDimensionsPerBounce = 4;
 

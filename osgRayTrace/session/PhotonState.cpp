@@ -102,6 +102,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
+    std::vector<SeenPlane>().swap(_planes);
     std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
@@ -144,6 +145,32 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     _limited = wanted > 0.0f && _largest != wanted;
 }
 
+void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
+                         const PassContext& context, const Workers& workers)
+{
+    const PhotonScene scene = photonScene(traced, context);
+    if (scene.options.use == PhotonUse::None || _largest > 0.0f) return;
+    chooseRadii(scene, context, workers);
+    _local = context.options.radiusSchedule == RadiusSchedule::Local &&
+             scene.options.use == PhotonUse::Indirect;
+    if (_local)
+        _statistics.assign(2 * _pixels, LocalStatistics());
+    else
+        _firstRadii.assign(_pixels, 0.0f);
+    // Whoever sets a radius wants discs of that radius.
+    if (!_local && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
+    _projection = PixelProjection(context.camera);
+    if (context.options.integrator == IntegratorKind::Ppm)
+        _hitPoints.resize(2 * _pixels / kTilePixels);
+}
+
+int PhotonState::sharedPasses() const
+{
+    if (_idle || !(_largest > 0.0f)) return 0;
+    if (!_planes.empty()) return kChoosingPasses;
+    return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
+}
+
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,
                           int pass, const Workers& workers)
 {
@@ -151,18 +178,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     const PhotonPassOptions& options = scene.options;
     context.photonUse = options.use;
     if (options.use == PhotonUse::None) return;
-    if (!(_largest > 0.0f))
-    {
-        chooseRadii(scene, context, workers);
-        _local = context.options.radiusSchedule == RadiusSchedule::Local &&
-                 options.use == PhotonUse::Indirect;
-        if (_local)
-            _statistics.assign(2 * _pixels, LocalStatistics());
-        else
-            _firstRadii.assign(_pixels, 0.0f);
-        if (context.options.integrator == IntegratorKind::Ppm)
-            _hitPoints.resize(2 * _pixels / kTilePixels);
-    }
+    choose(traced, context, workers);
     if (_idle)
     {
         context.photonUse = PhotonUse::None;
@@ -177,6 +193,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
+    context.projection = &_projection;
     _stored |= _pass->map.size() > 0;
     _preparedPass = pass;
 }
@@ -228,9 +245,9 @@ HitPoints* PhotonState::hitPoints(int tile, int pass)
 
 std::size_t PhotonState::viewBytes() const
 {
-    std::size_t bytes = _firstRadii.size() * sizeof(float) +
-                        _statistics.size() * sizeof(LocalStatistics) +
-                        _differences.size() * sizeof(DiscDifferences);
+    std::size_t bytes =
+        _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
+        _planes.size() * sizeof(SeenPlane) + _differences.size() * sizeof(DiscDifferences);
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
@@ -246,6 +263,8 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     }
     gathered.separate = _local;
+    if (!_planes.empty()) gathered.planes = &_planes[first];
+    gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
@@ -268,13 +287,15 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
         *hits = HitPoints();
     if (!_local)
     {
-        for (std::size_t p = 0; p < kTilePixels; ++p)
+        const int shared = sharedPasses();
+        for (std::size_t p = 0; p < kTilePixels && pass < shared; ++p)
         {
             float& radius = _firstRadii[first + p];
             const float chosen = gathered.radius[p] / _shrink;
             if (radius == 0.0f || (choosesAgain(pass) && chosen > 0.0f && chosen < radius))
                 radius = chosen;
         }
+        if (pass + 1 == shared) fillRadii(first);
         return;
     }
     for (std::size_t p = 0; p < kTilePixels; ++p)
@@ -292,6 +313,21 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
         block.g[p % kLanes] += added.y;
         block.b[p % kLanes] += added.z;
     }
+}
+
+/// Gives the pixels of a tile that have no radius the mean of the others, or the largest one.
+void PhotonState::fillRadii(std::size_t firstPixel)
+{
+    float sum = 0.0f;
+    int known = 0;
+    for (std::size_t p = firstPixel; p < firstPixel + kTilePixels; ++p)
+    {
+        sum += _firstRadii[p];
+        known += _firstRadii[p] > 0.0f;
+    }
+    const float mean = known > 0 ? sum / static_cast<float>(known) : _largest;
+    for (std::size_t p = firstPixel; p < firstPixel + kTilePixels; ++p)
+        if (_firstRadii[p] == 0.0f) _firstRadii[p] = mean;
 }
 
 } // namespace osgRayTrace::engine

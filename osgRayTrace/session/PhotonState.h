@@ -28,9 +28,10 @@ struct SeenSquares
 /// Chooses radii, holds the photons of the pass at work and, for the local schedule, the statistics
 /// of each pixel. Each pixel's first radius is the given one, or the smallest with kRadiusPhotons
 /// photons (radiusOf). That radius is at least the width of a pixel and at most the radius that
-/// holds kDensityPhotons photons around a photon in the median. Later radii follow the schedule; if
-/// the first pass that is guided to views has more photons, the radii become smaller by the same
-/// rule. All radii are kept between the spacing of floats and the radius of the scene.
+/// holds kDensityPhotons photons around a photon in the median. A pixel that meets no surface in
+/// the shared passes takes the mean radius of its tile. Later radii follow the schedule; if the
+/// first pass that is guided to views has more photons, the radii become smaller by the same rule.
+/// All radii are kept between the spacing of floats and the radius of the scene.
 class PhotonState
 {
 public:
@@ -44,6 +45,15 @@ public:
 
     /// Begins a new image. tileCount is the number of the film's tiles.
     void reset(int tileCount);
+
+    /// Chooses the least and the largest radius, unless they are chosen.
+    void choose(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
+                const Workers& workers);
+
+    /// Returns on how many of the first passes all others depend, by what this view has learnt from
+    /// them: radii, places to which photons are guided, and which pixels take the photons of their
+    /// footprint. Known after choose().
+    int sharedPasses() const;
 
     /// Traces or finds the photons of a pass and sets them in context, whose integrator is chosen.
     /// For integrators without photons the function does nothing.
@@ -69,6 +79,9 @@ public:
     /// share camera paths, as those of Ppm do; otherwise null. A tile drops its hit points if they
     /// take more than its share of kMostHitPointBytes: its camera paths are then followed again.
     HitPoints* hitPoints(int tile, int pass);
+    /// Passes in which pixels may choose between discs and footprints: later ones cannot depend on
+    /// how many passes another machine has made.
+    static constexpr int kChoosingPasses = 16;
     static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
 
     /// begin sets the radii for the tile before its pass; end takes the photons that the pass
@@ -86,6 +99,7 @@ public:
 
 private:
     void chooseRadii(const PhotonScene& scene, const PassContext& context, const Workers& workers);
+    void fillRadii(std::size_t firstPixel);
     void sumUpSeen();
     bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _guides && !_local; }
 
@@ -109,9 +123,11 @@ private:
     /// seen.
     bool _guides = false;
     int _preparedPass = -1;
-    std::size_t _pixels = 0;                   ///< number of pixels of all tiles
-    std::vector<float> _firstRadii;            ///< by tile, pixel; 0: not known; empty if local
-    std::vector<LocalStatistics> _statistics;  ///< by half, tile, pixel; empty unless local
+    std::size_t _pixels = 0;                  ///< number of pixels of all tiles
+    std::vector<float> _firstRadii;           ///< by tile, pixel; 0: not known; empty if local
+    std::vector<LocalStatistics> _statistics; ///< by half, tile, pixel; empty unless local
+    std::vector<SeenPlane> _planes;           ///< by tile, pixel; empty: all look-ups are discs
+    PixelProjection _projection;
     std::vector<HitPoints> _hitPoints;         ///< by half, tile; empty unless passes share paths
     std::vector<DiscDifferences> _differences; ///< by tile
     /// Contributions of the pass at work, by tile; empty unless the guide learns from the pass.

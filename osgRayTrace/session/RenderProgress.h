@@ -18,7 +18,8 @@ namespace osgRayTrace::engine
 /// RenderSession::render returns when the first of these limits is reached.
 struct StopRule
 {
-    /// Limit of the accumulated passes, which include those of earlier calls.
+    /// Limit of the accumulated passes, which include those of earlier calls: no pass of this
+    /// number or a higher one is made.
     int passes = std::numeric_limits<int>::max();
     int newPasses = std::numeric_limits<int>::max(); ///< passes of this call
     /// Limit of the tiles of this call, summed over its passes; the next render() does the rest of

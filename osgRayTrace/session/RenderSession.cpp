@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/RenderSession.h"
 
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/session/SessionState.h"
 
 #include <new>
@@ -68,6 +69,40 @@ void RenderSession::setCentred(bool centred)
 {
     const ThreadSeam::Entry inside(_state->seam);
     _state->centred = centred;
+}
+
+void RenderSession::setSums(FilmSums kind)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    _state->sumsKind = kind;
+}
+
+void RenderSession::setFirstPass(int pass)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    _state->firstPass = pass;
+}
+
+void RenderSession::resume(PassSums sums)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    OSGRAYTRACE_ASSERT(_state->sumsKind == FilmSums::Exact);
+    _state->firstSums = std::move(sums);
+}
+
+std::optional<PassSums> RenderSession::passSums() const
+{
+    const SessionState& session = *_state;
+    if (!session.filmScene || session.film.sumsKind() != FilmSums::Exact) return std::nullopt;
+    const int passes = session.filmPasses.count();
+    for (int tile = 0; tile < session.film.tileCount(); ++tile)
+        if (session.film.tilePasses(tile) != passes) return std::nullopt;
+    return sumsOf(session.film, session.filmPasses);
+}
+
+const PassSet& RenderSession::passes() const
+{
+    return _state->filmPasses;
 }
 
 RenderProgress RenderSession::render(const StopRule& rule,

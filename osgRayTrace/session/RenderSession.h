@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Status.h"
 #include "osgRayTrace/film/ChangedTiles.h"
+#include "osgRayTrace/film/PassSums.h"
 #include "osgRayTrace/film/ToneMap.h"
 #include "osgRayTrace/integrators/shared/RenderOptions.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
@@ -18,6 +19,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,6 +68,24 @@ public:
     /// Sets whether all passes of the images that are begun from now on look through the middles of
     /// the pixels, where first hits are sampled, and not through other points: see Upsample.h.
     void setCentred(bool centred);
+
+    /// Sets how the images that are begun from now on add up their passes.
+    void setSums(FilmSums kind);
+
+    /// Sets the first pass that images have: what others begin with is left to other sessions.
+    /// Passes that later ones depend on, those of photons, are traced all the same.
+    void setFirstPass(int pass);
+
+    /// Begins the next image with passes that were made elsewhere, for the same scene, view and
+    /// options; render() adds those that are missing. Needs exact sums.
+    void resume(PassSums sums);
+
+    /// Returns the sums of the image, which are exact; nothing if tiles have different passes, or
+    /// if there is no image.
+    std::optional<PassSums> passSums() const;
+
+    /// Returns the passes that all tiles of the image have.
+    const PassSet& passes() const;
 
     /// Adds passes to the image until the rule says stop, cancel() is called or keepGoing, called
     /// after each pass on this thread, returns false. The tiles of a pass that cancel() cut short

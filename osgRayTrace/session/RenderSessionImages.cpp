@@ -35,6 +35,10 @@ std::optional<PassContext> SessionState::contextOfSize(int width, int height) co
 
 ErrorEstimate SessionState::estimateError() const
 {
+    // Differences are of the first passes, one after the other, all made here.
+    const int passes = film.passes();
+    const bool whole = filmPasses == PassSet(passes) && ownPasses == passes;
+    if (!whole) return engine::estimateError(film, *workers, {});
     return engine::estimateError(film, *workers, photons.discDifferences());
 }
 

@@ -50,20 +50,20 @@ struct TileGate
 
 } // namespace
 
-/// Adds the next pass of a tile, in the film itself if that is possible.
+/// Adds a pass of a tile, in the film itself if that is possible.
 TileCounts SessionState::renderTile(const PassContext& context, const Integrator& integrator,
-                                    int tile)
+                                    const NextPass& pass, int tile)
 {
     TileRgba local;
     TileResult result;
-    RgbaLanes* inFilm = film.firstPassStorage(tile);
+    RgbaLanes* inFilm = pass.isLearning ? nullptr : film.firstPassStorage(tile, pass.number);
     result.rgba = inFilm ? inFilm : local;
     GatheredPhotons gathered;
     if (photons.active())
     {
-        photons.begin(tile, film.tilePasses(tile), gathered);
+        photons.begin(tile, pass.number, gathered);
         result.photons.gathered = &gathered;
-        result.photons.hitPoints = photons.hitPoints(tile, film.tilePasses(tile));
+        result.photons.hitPoints = photons.hitPoints(tile, pass.number);
     }
     SurfaceBlock firstHits[kTileBlocks];
     const bool keeps = context.wantsDepth && surfaces.view.width > 0;
@@ -80,14 +80,15 @@ TileCounts SessionState::renderTile(const PassContext& context, const Integrator
         setSurfaceSamples(seen.get(), film.tileX(tile), film.tileY(tile), film.width(),
                           film.height(), samples);
     if (photons.active())
-        photons.end(tile, film.tilePasses(tile), gathered, context.options.photonAlpha,
-                    result.rgba);
+        photons.end(tile, pass.number, gathered, context.options.photonAlpha, result.rgba);
     if (context.wantsDepth)
         std::copy(result.firstHits.depth, result.firstHits.depth + kTilePixels, film.depth(tile));
+    if (pass.isLearning) return result.counts;
     if (inFilm)
-        film.finishPass(tile);
+        film.finishPass(tile, pass.number);
     else
-        film.addPass(tile, local);
+        result.counts.droppedSamples +=
+            static_cast<uint64_t>(film.addPass(tile, pass.number, local));
     return result.counts;
 }
 
@@ -128,9 +129,10 @@ std::vector<std::size_t> SessionState::firstPassOrder(const TileOrder& order,
 /// Adds one pass to every tile that does not have it yet, and shows the pass. Returns false if some
 /// tiles still lack the pass.
 bool SessionState::renderPass(const PassContext& context, const Integrator& integrator,
-                              const StopRule& rule, const DisplayTarget* display)
+                              const NextPass& pass, const StopRule& rule,
+                              const DisplayTarget* display)
 {
-    const int pass = film.passes();
+    const int before = film.passes();
     const auto tiles = static_cast<std::size_t>(film.tileCount());
     const TileOrder order(static_cast<std::size_t>(tilesAlong(film.width())),
                           static_cast<std::size_t>(tilesAlong(film.height())),
@@ -140,8 +142,9 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     tileCounts.assign(tiles, TileCounts());
     dirtyTiles.resize(tiles);
     film.beginPass();
+    if (pass.isLearning) learntPasses.resize(tiles, 0);
     const bool partial = rule.shouldStop || rule.newTiles < std::numeric_limits<int>::max();
-    const std::vector<std::size_t> queue = partial && pass == 0 && rule.firstTiles
+    const std::vector<std::size_t> queue = partial && before == 0 && rule.firstTiles
                                                ? firstPassOrder(order, *rule.firstTiles)
                                                : std::vector<std::size_t>();
     const auto renderOne = [&](std::size_t index)
@@ -153,10 +156,13 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
             index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
         if (index == tiles) return;
         const int tile = static_cast<int>(index);
-        const bool renders = film.tilePasses(tile) == pass &&
-                             !cancelled.load(std::memory_order_relaxed) && gate.begins();
-        if (renders) tileCounts[index] = renderTile(context, integrator, tile);
-        if (renders) dirtyTiles[index] = 1;
+        const bool lacksPass =
+            pass.isLearning ? learntPasses[index] <= pass.number : film.tilePasses(tile) == before;
+        const bool renders =
+            lacksPass && !cancelled.load(std::memory_order_relaxed) && gate.begins();
+        if (renders) tileCounts[index] = renderTile(context, integrator, pass, tile);
+        if (renders && pass.isLearning) learntPasses[index] = pass.number + 1;
+        if (renders && !pass.isLearning) dirtyTiles[index] = 1;
         if (display && (dirtyTiles[index] || !display->holdsImage)) resolveTile(*display, tile);
         if (display) dirtyTiles[index] = 0;
     };
@@ -171,7 +177,26 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     }
     addTileCounts();
     progress.newTiles = gate.begun;
-    return film.passes() > pass;
+    if (!pass.isLearning) return film.passes() > before;
+    return std::all_of(learntPasses.begin(), learntPasses.end(),
+                       [&](int learnt) { return learnt > pass.number; });
+}
+
+/// Returns the pass to make next, whatever its number.
+SessionState::NextPass SessionState::nextPass() const
+{
+    const int wanted = filmPasses.firstMissing(filmFirstPass);
+    if (tracedPasses >= photons.sharedPasses()) return {wanted, false};
+    return {tracedPasses, tracedPasses < filmFirstPass || filmPasses.contains(tracedPasses)};
+}
+
+/// Records that all tiles have had a pass. passes: those that the film has now.
+void SessionState::finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes)
+{
+    filmPasses = std::move(passes);
+    if (pass.number == tracedPasses) ++tracedPasses;
+    if (!pass.isLearning) ++ownPasses;
+    photons.finish(filmScene, context, pass.number);
 }
 
 /// Adds the counts of the tiles of a pass to the progress.
@@ -200,28 +225,37 @@ RenderProgress SessionState::run(const StopRule& rule,
     const Clock::time_point start = Clock::now();
     const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
     bool shown = true;
-    for (int newPasses = 0; newPasses < rule.newPasses && film.passes() < rule.passes; ++newPasses)
+    progress.passes = film.passes();
+    progress.imageShare = imageShare();
+    if (filmFirstPass > 0 || progress.passes > 0)
+        photons.choose(filmScene, contextOfPass(0), *workers);
+    const auto isLeft = [&] { return filmPasses.firstMissing(filmFirstPass) < rule.passes; };
+    for (int newPasses = 0; newPasses < rule.newPasses && isLeft(); ++newPasses)
     {
-        const int pass = film.passes();
+        const NextPass next = nextPass();
+        const int pass = next.number;
         if (progress.newTiles >= rule.newTiles) break;
         if (newPasses > 0 && secondsSince(start) >= rule.seconds) break;
         if (newPasses > 0 && rule.shouldStop &&
             rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
             break;
         const Clock::time_point passStart = Clock::now();
-        PassContext context = contextOfPass(pass);
+        PassContext context = contextOf(next);
         progress.lights = sampledLightCounts(context);
         preparePhotons(context, pass);
         if (newPasses == 0) progress.firstPhotonSeconds = progress.photonSeconds;
         // The display is written in the pass that is likely to be the last one, with the tiles that
         // only earlier passes of this call reached.
         shown = newPasses + 1 == rule.newPasses || pass + 1 == rule.passes;
-        const bool whole = renderPass(context, *integrator, rule, shown ? display : nullptr);
+        // Memory comes first: the film has the pass once its tiles do.
+        PassSet passesAfter = filmPasses;
+        if (!next.isLearning) passesAfter.add(pass);
+        const bool whole = renderPass(context, *integrator, next, rule, shown ? display : nullptr);
         progress.hitPointBytes = photons.viewBytes();
         progress.seconds += secondsSince(passStart);
         progress.passes = film.passes();
         progress.imageShare = imageShare();
-        if (whole) photons.finish(filmScene, context, pass);
+        if (whole) finishPass(context, next, std::move(passesAfter));
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
         if (wantsError) progress.error = estimateError();

@@ -69,8 +69,9 @@ bool SessionState::begin()
     const bool sameScene = scene == filmScene;
     const bool sameSize =
         view.width == film.width() && view.height == film.height(); // false after a failure
-    const bool restart =
-        !sameScene || !sameSize || view != filmView || options.needsRestart(filmOptions);
+    const bool restart = !sameScene || !sameSize || view != filmView ||
+                         options.needsRestart(filmOptions) || sumsKind != film.sumsKind() ||
+                         firstPass != filmFirstPass || firstSums;
     progress.restarted = restart;
     progress.status = {};
     if (!scene)
@@ -86,6 +87,12 @@ bool SessionState::begin()
     {
         progress.status = {StatusCode::InvalidView,
                            "the view has no size, or matrices that cannot be inverted"};
+        return false;
+    }
+    if (firstSums && (firstSums->width != view.width || firstSums->height != view.height))
+    {
+        firstSums.reset();
+        progress.status = {StatusCode::InvalidView, "the sums of passes are of another size"};
         return false;
     }
     std::vector<Light> placed = engine::placedLights(
@@ -133,7 +140,17 @@ void SessionState::resetFilm(bool continues)
             uint16_t& age = tileAges[static_cast<std::size_t>(tile)];
             age = film.tilePasses(tile) > 0 ? 0 : static_cast<uint16_t>(std::min(age + 1, 0xffff));
         }
-    film.reset(view.width, view.height);
+    film.reset(view.width, view.height, sumsKind);
+    filmPasses = PassSet();
+    filmFirstPass = firstPass;
+    tracedPasses = ownPasses = 0;
+    learntPasses.clear();
+    if (firstSums)
+    {
+        setFilm(*firstSums, film);
+        filmPasses = firstSums->passes;
+        firstSums.reset();
+    }
     surfaces.finished = false;
     filmContinues = continues;
     if (continues)
@@ -163,6 +180,16 @@ PassContext SessionState::contextOfPass(int pass) const
     context.coneScale = 1.0f / std::sqrt(static_cast<float>(paths + 1));
     context.wantsDepth = pass == 0;
     context.throughCentres = filmCentred || (filmOptions.centredFirstPass && paths == 0);
+    return context;
+}
+
+/// Returns the context of the pass that is made next. The depths of an image are those of the least
+/// of its passes, in whatever order these are made.
+PassContext SessionState::contextOf(const NextPass& pass) const
+{
+    PassContext context = contextOfPass(pass.number);
+    const bool first = filmPasses.empty() || pass.number < filmPasses.ranges().front().first;
+    context.wantsDepth = first && !pass.isLearning;
     return context;
 }
 

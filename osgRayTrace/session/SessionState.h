@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/ThreadSeam.h"
-#include "osgRayTrace/film/Film.h"
+#include "osgRayTrace/film/PassSums.h"
 #include "osgRayTrace/film/TileOrder.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/session/DisplayTarget.h"
@@ -24,10 +24,20 @@ struct SessionState
     {
     }
 
+    /// A pass to make.
+    struct NextPass
+    {
+        int number;
+        bool isLearning; ///< true: the image does not get it, but later passes depend on it
+    };
+
     bool begin();
-    TileCounts renderTile(const PassContext& context, const Integrator& integrator, int tile);
-    bool renderPass(const PassContext& context, const Integrator& integrator, const StopRule& rule,
-                    const DisplayTarget* display);
+    NextPass nextPass() const;
+    TileCounts renderTile(const PassContext& context, const Integrator& integrator,
+                          const NextPass& pass, int tile);
+    bool renderPass(const PassContext& context, const Integrator& integrator, const NextPass& pass,
+                    const StopRule& rule, const DisplayTarget* display);
+    void finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes);
     void preparePhotons(PassContext& context, int pass);
     ErrorEstimate estimateError() const;
     void addTileCounts();
@@ -45,6 +55,7 @@ struct SessionState
     void resolveTile(const DisplayTarget& display, int tile) const;
     void resolveRest(const DisplayTarget& display);
     PassContext contextOfPass(int pass) const;
+    PassContext contextOf(const NextPass& pass) const;
     std::optional<PassContext> contextOfSize(int width, int height) const;
 
     std::shared_ptr<Workers> workers;
@@ -57,6 +68,9 @@ struct SessionState
     bool keepsSurfaces = false;
     bool continuesView = false; // whether the next image keeps depths and surfaces of its view
     bool centred = false;
+    FilmSums sumsKind = FilmSums::Fast;
+    int firstPass = 0;
+    std::optional<PassSums> firstSums; // sums that the next image begins with
 
     // These values describe what the film holds.
     std::shared_ptr<const TracedScene> filmScene;
@@ -68,7 +82,12 @@ struct SessionState
     std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;
     Film film;
-    bool filmContinues = false; // whether tiles without a pass have depths of the image before
+    PassSet filmPasses;    // the whole passes of the film
+    int filmFirstPass = 0; // passes before it are not the film's
+    int tracedPasses = 0;  // of the first passes, those that this session has traced for the film
+    int ownPasses = 0;     // passes of the film that this session has added
+    std::vector<int> learntPasses; // by tile: learning passes that it has had; empty: none
+    bool filmContinues = false;    // whether tiles without a pass have depths of the image before
     std::vector<SurfaceSample> samples; // samples of the film's pixels, if it has them
     bool hasSamples = false;            // whether the film has samples, or will with its first pass
     SurfaceMap surfaces, lastSurfaces;

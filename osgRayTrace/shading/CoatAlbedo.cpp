@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <tuple>
 
 namespace osgRayTrace::engine
@@ -18,52 +19,74 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// Holds a direction towards the eye and the facets that it sees.
+struct Facets
+{
+    double along, across; ///< widths in the directions x and y
+    double x, y, z;       ///< wo
+    double lambdaO;
+    float eta;
+};
+
+/// Returns the function Lambda of Smith's masking [Heitz14, eq. 72] for a direction, z > 0;
+/// difference: the width across squared less that along.
+OSGRAYTRACE_INLINE double smithLambda(double along, double difference, double y, double z)
+{
+    const double z2 = z * z;
+    const double slope2 = along * along * (1.0 - z2) / z2 + difference * y * y / z2;
+    return 0.5 * (std::sqrt(1.0 + slope2) - 1.0);
+}
+
+/// Returns F(wo h) G2 / G1(wo) of the facet whose normal is along a vector; 0 if it reflects into
+/// the surface. The code has no branches, for loops over facets.
+OSGRAYTRACE_INLINE double reflectedBy(const Facets& facets, double x, double y, double z)
+{
+    const double scale = 1.0 / std::sqrt(x * x + y * y + z * z);
+    const double hx = x * scale, hy = y * scale, hz = z * scale;
+    const double cosH = facets.x * hx + facets.y * hy + facets.z * hz;
+    const double wiY = 2.0 * cosH * hy - facets.y, wiZ = 2.0 * cosH * hz - facets.z;
+    const double cosI = wiZ > 0.0 ? std::min(wiZ, 1.0) : 1.0;
+    const double difference = facets.across * facets.across - facets.along * facets.along;
+    const double lambdaI = smithLambda(facets.along, difference, wiY, cosI);
+    const double reflected = double(fresnelDielectric(static_cast<float>(cosH), facets.eta)) *
+                             (1.0 + facets.lambdaO) / (1.0 + facets.lambdaO + lambdaI);
+    return wiZ > 0.0 ? reflected : 0.0;
+}
+
 /// Returns the mean of F(wo h) G2 / G1(wo) over visible normals: all that single scattering
 /// reflects. azimuth: of wo, against the direction in which the facets have the width along.
-double albedoOf(double cosine, double azimuth, double along, double across, float eta)
+OSGRAYTRACE_KERNEL double albedoOf(double cosine, double azimuth, double along, double across,
+                                   float eta)
 {
     // Total reflection has an edge, which takes more points.
-    const int turns = eta < 1.0f ? 32 : 12, heights = eta < 1.0f ? 96 : 48;
+    constexpr int kMostTurns = 32;
+    const int turns = eta < 1.0f ? kMostTurns : 12, heights = eta < 1.0f ? 96 : 48;
     const double sine = std::sqrt(1.0 - cosine * cosine);
-    const Vec3d wo(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
-    const double difference = across * across - along * along;
-    const auto lambda = [along, difference](const Vec3d& w)
-    {
-        const double z2 = w.z * w.z;
-        const double slope2 = along * along * (1.0 - z2) / z2 + difference * w.y * w.y / z2;
-        return 0.5 * (std::sqrt(1.0 + slope2) - 1.0);
-    };
-    const double lambdaO = lambda(wo);
-    const Vec3d stretched = glm::normalize(Vec3d(along * wo.x, across * wo.y, cosine));
+    Facets facets{along, across, sine * std::cos(azimuth), sine * std::sin(azimuth), cosine,
+                  0.0,   eta};
+    facets.lambdaO = smithLambda(along, across * across - along * along, facets.y, cosine);
+    const Vec3d stretched = glm::normalize(Vec3d(along * facets.x, across * facets.y, cosine));
     const double span = azimuth == 0.0 ? M_PI : 2.0 * M_PI;
-    std::array<double, 32> cosines{}, sines{};
+    double cosines[kMostTurns], sines[kMostTurns];
     for (int i = 0; i < turns; ++i)
     {
         const double phi = span * (i + 0.5) / turns;
-        cosines[static_cast<std::size_t>(i)] = std::cos(phi);
-        sines[static_cast<std::size_t>(i)] = std::sin(phi);
+        cosines[i] = std::cos(phi);
+        sines[i] = std::sin(phi);
     }
-    double sum = 0.0;
+    double sums[kMostTurns] = {};
     for (int j = 0; j < heights; ++j)
     {
         // The points are those of sampleGgxVisible: a cap of the sphere by height and angle. One
         // half of the cap stands for both if wo is along.
         const double z = (1.0 - (j + 0.5) / heights) * (1.0 + stretched.z) - stretched.z;
         const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+        OSGRAYTRACE_SIMD
         for (int i = 0; i < turns; ++i)
-        {
-            const auto turn = static_cast<std::size_t>(i);
-            const Vec3d cap = Vec3d(radius * cosines[turn], radius * sines[turn], z) + stretched;
-            const Vec3d h = glm::normalize(Vec3d(along * cap.x, across * cap.y, cap.z));
-            const double cosH = wo.x * h.x + wo.y * h.y + cosine * h.z;
-            Vec3d wi = 2.0 * cosH * h - wo;
-            if (!(wi.z > 0.0)) continue;
-            wi.z = std::min(wi.z, 1.0);
-            sum += fresnelDielectric(static_cast<float>(cosH), eta) * (1.0 + lambdaO) /
-                   (1.0 + lambdaO + lambda(wi));
-        }
+            sums[i] += reflectedBy(facets, along * (radius * cosines[i] + stretched.x),
+                                   across * (radius * sines[i] + stretched.y), z + stretched.z);
     }
-    return sum / (turns * heights);
+    return std::accumulate(sums, sums + turns, 0.0) / (turns * heights);
 }
 
 /// Returns the largest albedo over azimuths, and over strengths of anisotropy up to the given one

@@ -17,6 +17,15 @@ constexpr double kTwoPi = 6.283185307179586476925;
 /// a sample falls into the block: half a byte a pixel instead of eight.
 constexpr int kBlock = 16;
 
+/// A sky whose light above the mean is less than this share of it counts as even.
+constexpr double kLeastUneven = 1e-4;
+
+/// Returns the weight of a pixel: how much its luminance exceeds a floor.
+double weightOf(Vec3 radiance, double floor)
+{
+    return std::max(0.0, luminance(radiance) - floor);
+}
+
 /// Returns the index of the entry of a running sum that target, which is below the last entry,
 /// falls into.
 std::size_t entryOf(const double* sums, std::size_t count, double target)
@@ -36,7 +45,6 @@ Vec2 imagePoint(const EnvironmentImage& image, Vec3 d)
 
 } // namespace
 
-/// Sums are double: float sums of a bright pixel and of dim ones would lose the dim ones.
 EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image)
     : _image(std::move(image))
 {
@@ -45,23 +53,38 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const EnvironmentImage> image)
     _rowZ.resize(static_cast<std::size_t>(height) + 1);
     for (int y = 0; y <= height; ++y)
         _rowZ[static_cast<std::size_t>(y)] = -std::cos(kTwoPi * 0.5 * y / height);
-    _rows.reserve(static_cast<std::size_t>(height));
-    _blocks.reserve(static_cast<std::size_t>(height) * static_cast<std::size_t>(_blocksPerRow));
     for (int y = 0; y < height; ++y)
     {
-        const Vec3* row =
-            &_image->radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)];
         Vec3d sum(0.0);
-        double luminances = 0.0;
+        for (int x = 0; x < width; ++x)
+            sum += Vec3d(row(y)[x]);
+        _integral += sum * solidAngle(y);
+    }
+    _luminance = sumsOver(0.0);
+    _compensated = sumsOver(_luminance.integral / (2.0 * kTwoPi));
+    // What rounding leaves of an even sky is no distribution.
+    if (!(_compensated.integral > kLeastUneven * _luminance.integral)) _compensated = {};
+}
+
+/// Sums are double: float sums of a bright pixel and of dim ones would lose the dim ones.
+EnvironmentMap::Sums EnvironmentMap::sumsOver(double floor) const
+{
+    const int width = _image->width, height = _image->height;
+    Sums sums;
+    sums.floor = floor;
+    sums.rows.reserve(static_cast<std::size_t>(height));
+    sums.blocks.reserve(static_cast<std::size_t>(height) * static_cast<std::size_t>(_blocksPerRow));
+    for (int y = 0; y < height; ++y)
+    {
+        double weights = 0.0;
         for (int x = 0; x < width; ++x)
         {
-            sum += Vec3d(row[x]);
-            luminances += luminance(row[x]);
-            if (x % kBlock == kBlock - 1 || x == width - 1) _blocks.push_back(luminances);
+            weights += weightOf(row(y)[x], floor);
+            if (x % kBlock == kBlock - 1 || x == width - 1) sums.blocks.push_back(weights);
         }
-        _integral += sum * solidAngle(y);
-        _rows.push_back(_luminanceIntegral += luminances * solidAngle(y));
+        sums.rows.push_back(sums.integral += weights * solidAngle(y));
     }
+    return sums;
 }
 
 double EnvironmentMap::solidAngle(int row) const
@@ -78,30 +101,31 @@ Vec3d EnvironmentMap::direction(double x, double y) const
     return Vec3d(across * std::sin(azimuth), across * std::cos(azimuth), std::sin(elevation));
 }
 
-EnvironmentSample EnvironmentMap::sample(float u, float v) const
+EnvironmentSample EnvironmentMap::sample(float u, float v, EnvironmentDensity density) const
 {
+    const Sums& from = sums(density);
     EnvironmentSample sample;
-    if (isBlack()) return sample;
+    if (!(from.integral > 0.0)) return sample;
 
     // The first step chooses the row and the height within it: uniform in z, as solid angle is.
-    const double vTarget = v * _luminanceIntegral;
-    const std::size_t y = entryOf(_rows.data(), _rows.size(), vTarget);
-    const double below = y ? _rows[y - 1] : 0.0;
-    const double inRow = std::clamp((vTarget - below) / (_rows[y] - below), 0.0, 1.0);
+    const double vTarget = v * from.integral;
+    const std::size_t y = entryOf(from.rows.data(), from.rows.size(), vTarget);
+    const double below = y ? from.rows[y - 1] : 0.0;
+    const double inRow = std::clamp((vTarget - below) / (from.rows[y] - below), 0.0, 1.0);
     const double z = _rowZ[y] + inRow * (_rowZ[y + 1] - _rowZ[y]);
 
     // The second step chooses the block of pixels, then the pixel.
-    const double* blocks = &_blocks[y * static_cast<std::size_t>(_blocksPerRow)];
+    const double* blocks = &from.blocks[y * static_cast<std::size_t>(_blocksPerRow)];
     const auto blockCount = static_cast<std::size_t>(_blocksPerRow);
     const double uTarget = u * blocks[blockCount - 1];
     const std::size_t block = entryOf(blocks, blockCount, uTarget);
     const auto width = static_cast<std::size_t>(_image->width);
-    const Vec3* row = &_image->radiance[y * width];
+    const Vec3* pixels = row(static_cast<int>(y));
     double left = block ? blocks[block - 1] : 0.0, weight = 0.0;
     std::size_t x = block * kBlock;
     for (std::size_t at = x; at < std::min(width, (block + 1) * kBlock); ++at)
     {
-        const double next = luminance(row[at]);
+        const double next = weightOf(pixels[at], from.floor);
         if (!(next > 0.0)) continue;
         left += weight;
         weight = next;
@@ -114,15 +138,16 @@ EnvironmentSample EnvironmentMap::sample(float u, float v) const
     const double across = std::sqrt(std::max(0.0, (1.0 - z) * (1.0 + z)));
     sample.direction = Vec3(static_cast<float>(across * std::sin(azimuth)),
                             static_cast<float>(across * std::cos(azimuth)), static_cast<float>(z));
-    sample.radiance = row[x];
-    sample.pdfW = static_cast<float>(weight / _luminanceIntegral);
+    sample.radiance = pixels[x];
+    sample.pdfW = static_cast<float>(weight / from.integral);
     return sample;
 }
 
-float EnvironmentMap::pdfW(Vec3 direction) const
+float EnvironmentMap::pdfW(Vec3 direction, EnvironmentDensity density) const
 {
-    return isBlack() ? 0.0f
-                     : static_cast<float>(luminance(radiance(direction)) / _luminanceIntegral);
+    const Sums& from = sums(density);
+    if (!(from.integral > 0.0)) return 0.0f;
+    return static_cast<float>(weightOf(radiance(direction), from.floor) / from.integral);
 }
 
 std::size_t EnvironmentMap::pixelOf(Vec3 direction) const

@@ -5,6 +5,7 @@
 #include "osgRayTrace/scene/Environment.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,10 +20,20 @@ struct EnvironmentSample
     float pdfW = 0.0f; ///< [1/sr]; 0: nothing to sample
 };
 
-/// Samples directions in the space of the image. Directions are distributed as luminance: that of a
-/// pixel over the integral over the sphere, uniform within a pixel, as the radiance is. So radiance
-/// over density has one luminance everywhere, and each pixel that is not black is reached, however
-/// small its share is [Pharr16, sect. 14.2.4]. The map is built once for an image; thread safe.
+/// Names a distribution over directions.
+enum class EnvironmentDensity : uint8_t
+{
+    /// As luminance: radiance over density has one luminance everywhere, and each pixel that is not
+    /// black is reached, however small its share is [Pharr16, sect. 14.2.4].
+    Luminance,
+    /// As max(0, luminance - mean over the sphere) [Karlik19]: directions that are no brighter than
+    /// the mean are left to another technique that reaches all of them, by multiple importance
+    /// sampling. A sky of even radiance has nothing to sample.
+    Compensated,
+};
+
+/// Samples directions in the space of the image by either density, which is uniform within a pixel
+/// as the radiance is. The map is built once for an image; thread safe.
 class EnvironmentMap
 {
 public:
@@ -32,14 +43,18 @@ public:
 
     /// Returns the integral over the sphere, of radiance and of luminance.
     const Vec3d& integral() const { return _integral; }
-    double luminanceIntegral() const { return _luminanceIntegral; }
-    bool isBlack() const { return !(_luminanceIntegral > 0.0); }
+    double luminanceIntegral() const { return _luminance.integral; }
+    bool isBlack() const { return !(_luminance.integral > 0.0); }
+
+    /// Returns whether sample finds nothing by EnvironmentDensity::Compensated.
+    bool isEven() const { return !(_compensated.integral > 0.0); }
 
     /// Returns a sample. u, v in [0,1): neighbouring numbers give neighbouring directions.
-    EnvironmentSample sample(float u, float v) const;
+    EnvironmentSample sample(float u, float v,
+                             EnvironmentDensity density = EnvironmentDensity::Luminance) const;
 
     /// Returns the density [1/sr] with which sample chooses a direction, which is unit.
-    float pdfW(Vec3 direction) const;
+    float pdfW(Vec3 direction, EnvironmentDensity density = EnvironmentDensity::Luminance) const;
 
     /// Returns the radiance of the pixel, which is the one that lights surfaces.
     Vec3 radiance(Vec3 direction) const { return _image->radiance[pixelOf(direction)]; }
@@ -55,16 +70,33 @@ public:
     Vec3d direction(double x, double y) const;
 
 private:
+    /// Holds running sums of the pixels' weights.
+    struct Sums
+    {
+        double floor = 0.0;         ///< luminance that counts as none
+        double integral = 0.0;      ///< weight times solid angle; 0: nothing to sample
+        std::vector<double> rows;   ///< a row: running sum of weight times solid angle
+        std::vector<double> blocks; ///< a block of pixels: running sum of weight within the row
+    };
+    Sums sumsOver(double floor) const;
+    const Sums& sums(EnvironmentDensity density) const
+    {
+        return density == EnvironmentDensity::Compensated ? _compensated : _luminance;
+    }
+
+    const Vec3* row(int y) const
+    {
+        return &_image->radiance[static_cast<std::size_t>(y) *
+                                 static_cast<std::size_t>(_image->width)];
+    }
     std::size_t pixelOf(Vec3 direction) const;
     Vec3 pixelAt(int x, int y) const;
 
     std::shared_ptr<const EnvironmentImage> _image;
     Vec3d _integral{0.0};
-    double _luminanceIntegral = 0.0;
     int _blocksPerRow = 0;
-    std::vector<double> _rowZ;   ///< z of the lower border of each row, and 1
-    std::vector<double> _rows;   ///< a row: running sum of luminance times solid angle
-    std::vector<double> _blocks; ///< a block of pixels: running sum of luminance within the row
+    std::vector<double> _rowZ; ///< z of the lower border of each row, and 1
+    Sums _luminance, _compensated;
 };
 
 } // namespace osgRayTrace::engine

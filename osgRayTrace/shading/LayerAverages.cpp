@@ -67,11 +67,15 @@ float baseAverageOf(const Bsdf& b)
 
 float filmRiseOf(const Bsdf& b)
 {
-    constexpr int kSteps = 12;
+    // Cosines closer to grazing would take more from the base at all angles than rough facets,
+    // which average over their angles, reflect at any.
+    constexpr int kSteps = 7;
+    constexpr float kLeastCosine = 1.0f / 12.0f;
     float rise = 0.0f;
     for (int i = 0; i <= kSteps; ++i)
     {
-        const float cosTheta = static_cast<float>(i) / kSteps;
+        const float cosTheta =
+            kLeastCosine + (1.0f - kLeastCosine) * static_cast<float>(i) / kSteps;
         const Vec3 face = tinted(b, fresnelDielectric(cosTheta, b.eta));
         const Vec3 bare = isFilmOnAir(b) ? Vec3(fresnelDielectric(cosTheta, b.filmIor)) : face;
         const Vec3 added = withFilm(b, cosTheta, face) - bare, left = Vec3(1.0f) - bare;

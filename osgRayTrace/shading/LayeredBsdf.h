@@ -49,7 +49,7 @@ SpecularLobes layeredLobes(const Bsdf& bsdf, Vec3 wo);
 float baseAverageOf(const Bsdf& bsdf);
 
 /// Returns the least a for which a film makes at most F' + a (1 - F') of F', for the member of that
-/// name, at 13 angles. Over a body of the index of air F' is that of the film's own index.
+/// name, at 8 angles. Over a body of the index of air F' is that of the film's own index.
 float filmRiseOf(const Bsdf& bsdf);
 
 /// Returns the share of the light that passes a smooth thin wall straight, for a direction with

@@ -13,6 +13,9 @@ namespace
 /// The half-angles of a cone and of what is near it are taken so much larger, against rounding.
 constexpr float kConeSlack = 1e-5f;
 
+/// Ranges are taken so many times, against rounding.
+constexpr float kReachSlack = 1.00001f;
+
 /// A cone of directions.
 struct Cone
 {
@@ -65,6 +68,7 @@ LightBounds joined(const LightBounds& a, const LightBounds& b)
     both.axis = cone.axis;
     both.cosCone = cone.cosine;
     both.cosEmission = std::min(a.cosEmission, b.cosEmission);
+    both.range = std::max(a.range, b.range);
     both.intensity = a.intensity + b.intensity;
     const float share = b.intensity / both.intensity;
     both.falloff = a.falloff + (b.falloff - a.falloff) * share;
@@ -85,9 +89,9 @@ LightNode nodeOf(const LightBounds& bounds, uint32_t next)
     node.cosCone = bounds.cosCone;
     node.sinCone = sineOf(bounds.cosCone);
     node.cosEmission = bounds.cosEmission;
-    node.intensity = bounds.intensity;
+    node.intensity = bounds.twoSided ? -bounds.intensity : bounds.intensity;
     node.next = next;
-    node.twoSided = maskOf(bounds.twoSided);
+    node.reach = (bounds.range + node.radius) * kReachSlack;
     return node;
 }
 

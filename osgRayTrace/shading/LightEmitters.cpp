@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -74,44 +75,71 @@ float texelsAcross(const Scene& scene, const Material& material,
     return std::max(longest, glm::length((triangle.uac - triangle.uab) * size));
 }
 
-void addMesh(const Scene& scene, const LightTable& table, const MaterialTable* materials,
-             uint32_t index, std::vector<LightEmitter>& emitters)
+LightEmitter triangleEmitter(const EmissiveMesh::Triangle& t, uint32_t light, Vec3 radiance,
+                             bool textured)
 {
-    const Light& light = scene.lights[index];
-    const uint32_t number = scene.instances[light.instance].material;
-    const Material& material = scene.materials[number];
-    const bool textured = materials && emitsUnevenly(material);
-    for (const EmissiveMesh::Triangle& t : table.mesh(index).triangles)
+    LightEmitter emitter{};
+    set(emitter.corner, t.a);
+    set(emitter.edgeU, t.ab);
+    set(emitter.edgeV, t.ac);
+    emitter.area = t.area;
+    set(emitter.radiance, radiance);
+    emitter.light = light;
+    emitter.primitive = t.primitive;
+    emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
+    return emitter;
+}
+
+/// A part of this many triangles is one piece of work.
+constexpr std::size_t kTrianglesAtOnce = 4096;
+
+/// What the emitters of a mesh are made of.
+struct EmitterSources
+{
+    const Scene& scene;
+    const LightTable& table;
+    const MaterialTable* materials;
+    const Workers* workers;
+};
+
+/// Sets the emitters of a mesh.
+void setMesh(const EmitterSources& from, uint32_t index, LightEmitter* emitters)
+{
+    const Light& light = from.scene.lights[index];
+    const uint32_t number = from.scene.instances[light.instance].material;
+    const Material& material = from.scene.materials[number];
+    const bool textured = from.materials && emitsUnevenly(material);
+    const auto& triangles = from.table.mesh(index).triangles;
+    const auto setPart = [&](std::size_t begin, std::size_t end)
     {
-        LightEmitter emitter;
-        set(emitter.corner, t.a);
-        set(emitter.edgeU, t.ab);
-        set(emitter.edgeV, t.ac);
-        emitter.area = t.area;
-        Vec3 radiance = light.radiance;
-        if (textured)
+        for (std::size_t k = begin; k < end; ++k)
         {
-            radiance = meanRadiance(*materials, number, t, texelsAcross(scene, material, t));
-            radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
+            const EmissiveMesh::Triangle& t = triangles[k];
+            Vec3 radiance = light.radiance;
+            if (textured)
+            {
+                radiance =
+                    meanRadiance(*from.materials, number, t, texelsAcross(from.scene, material, t));
+                radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
+            }
+            emitters[k] = triangleEmitter(t, index, radiance, textured);
         }
-        set(emitter.radiance, radiance);
-        emitter.light = index;
-        emitter.primitive = t.primitive;
-        emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
-        emitters.push_back(emitter);
-    }
+    };
+    forEachPart(from.workers, triangles.size(), kTrianglesAtOnce, setPart);
 }
 
 LightEmitter parallelogram(const Light& light, uint32_t index, float area)
 {
-    LightEmitter emitter;
+    LightEmitter emitter{};
     set(emitter.corner, light.corner);
     set(emitter.edgeU, light.edgeU);
     set(emitter.edgeV, light.edgeV);
     set(emitter.radiance, light.radiance);
     emitter.area = area;
     emitter.light = index;
-    emitter.flags = light.twoSided ? kTwoSided : 0;
+    emitter.primitive = kInvalid;
+    emitter.flags =
+        (light.twoSided ? kTwoSided : 0) | (isRectangle(light.edgeU, light.edgeV) ? kRectangle : 0);
     return emitter;
 }
 
@@ -122,7 +150,7 @@ float sumAbs(Vec3 v)
 
 LightEmitter point(const Light& light, uint32_t index)
 {
-    LightEmitter emitter;
+    LightEmitter emitter{};
     set(emitter.corner, light.position);
     set(emitter.edgeU, light.direction);
     set(emitter.edgeV, Vec3(light.spotCosCutoff, light.spotExponent, light.radius));
@@ -132,6 +160,7 @@ LightEmitter point(const Light& light, uint32_t index)
     emitter.area =
         kPi * (sumAbs(light.ambient) + sumAbs(light.diffuse) + sumAbs(light.specular)) / 3.0f;
     emitter.light = index;
+    std::memcpy(&emitter.primitive, &light.range, sizeof emitter.primitive);
     emitter.flags = kPoint;
     return emitter;
 }
@@ -153,6 +182,9 @@ LightBounds pointBounds(const LightEmitter& emitter)
     const bool peaked = spot && exponent > 1.0f;
     bounds.cosCone = peaked ? 1.0f : cosCutoff;
     bounds.cosEmission = peaked ? std::max(cosCutoff, 0.0f) : kEdge;
+    float range;
+    std::memcpy(&range, &emitter.primitive, sizeof range);
+    if (range > 0.0f) bounds.range = range;
     return bounds;
 }
 
@@ -174,25 +206,30 @@ bool isInTree(const Light& light)
     return false;
 }
 
-std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& table,
-                                        const MaterialTable* materials)
+LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
+                            const MaterialTable* materials, const Workers* workers)
 {
-    std::vector<LightEmitter> emitters;
-    std::size_t count = table.areaLights().size() + table.deltaLights().size();
+    std::size_t count = table.areaLights().size();
     for (const uint32_t index : table.areaLights())
         if (scene.lights[index].kind == LightKind::Mesh)
             count += table.mesh(index).triangles.size() - 1;
-    emitters.reserve(count);
+    for (const uint32_t index : table.deltaLights())
+        count += isInTree(scene.lights[index]);
+    LightEmitters emitters(count);
+    std::size_t at = 0;
     for (const uint32_t index : table.areaLights())
     {
         const Light& light = scene.lights[index];
         if (light.kind == LightKind::Mesh)
-            addMesh(scene, table, materials, index, emitters);
+        {
+            setMesh({scene, table, materials, workers}, index, emitters.data() + at);
+            at += table.mesh(index).triangles.size();
+        }
         else
-            emitters.push_back(parallelogram(light, index, table.area(index)));
+            emitters[at++] = parallelogram(light, index, table.area(index));
     }
     for (const uint32_t index : table.deltaLights())
-        if (isInTree(scene.lights[index])) emitters.push_back(point(scene.lights[index], index));
+        if (isInTree(scene.lights[index])) emitters[at++] = point(scene.lights[index], index);
     return emitters;
 }
 

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/LargeArray.h"
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/shading/LightBounds.h"
-
-#include <vector>
+#include "osgRayTrace/shading/RectangleLight.h"
 
 namespace osgRayTrace::engine
 {
@@ -17,34 +18,45 @@ class MaterialTable;
 constexpr uint32_t kTriangle = 1; ///< of a mesh that emits; shines to both sides
 constexpr uint32_t kPoint = 2;    ///< point or spot light
 constexpr uint32_t kTwoSided = 4;
-constexpr uint32_t kTextured = 8; ///< the radiance depends on the point
+constexpr uint32_t kTextured = 8;   ///< the radiance depends on the point
+constexpr uint32_t kRectangle = 16; ///< a parallelogram with right angles
 
 /// A parallelogram, a triangle or a point light, in words that sixteen lanes gather. Emitters of
 /// equal words have equal bounds. The members of a point light other than its place are its axis
-/// (edgeU), its cut-off, exponent and radius (edgeV), its attenuation (radiance) and its brightness
-/// (area).
+/// (edgeU), its cut-off, exponent and radius (edgeV), its attenuation (radiance), its brightness
+/// (area) and the bits of its range (primitive).
 struct LightEmitter
 {
-    float corner[3] = {};
-    float edgeU[3] = {}, edgeV[3] = {};
-    float area = 0.0f;
-    float radiance[3] = {}; ///< of a textured triangle: the mean
-    uint32_t light = kInvalid;
-    uint32_t primitive = kInvalid; ///< triangle of the mesh
-    uint32_t flags = 0;
+    float corner[3];
+    float edgeU[3], edgeV[3];
+    float area;
+    float radiance[3]; ///< of a textured triangle: the mean
+    uint32_t light;
+    uint32_t primitive; ///< triangle of the mesh
+    uint32_t flags;
 
     bool isPoint() const { return (flags & kPoint) != 0; }
 };
 static_assert(sizeof(LightEmitter) == 64, "an emitter is a cache line");
+
+using LightEmitters = UnclearedArray<LightEmitter>;
+
+/// Returns an emitter of kRectangle as a rectangle.
+OSGRAYTRACE_INLINE RectangleLight rectangleLight(const LightEmitter& e)
+{
+    return rectangleLight({e.corner[0], e.corner[1], e.corner[2]},
+                          {e.edgeU[0], e.edgeU[1], e.edgeU[2]},
+                          {e.edgeV[0], e.edgeV[1], e.edgeV[2]});
+}
 
 /// Returns whether a LightTree chooses a light: directional lights, environments, lights of a view
 /// and those so far away that squares of distances are no floats have samples of their own.
 bool isInTree(const Light& light);
 
 /// Returns the parts of all lights with power that isInTree. materials: null if nothing is
-/// textured.
-std::vector<LightEmitter> lightEmitters(const Scene& scene, const LightTable& table,
-                                        const MaterialTable* materials);
+/// textured. workers: may be null.
+LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
+                            const MaterialTable* materials, const Workers* workers);
 
 /// Returns bounds of the light that an emitter sends out.
 LightBounds boundsOf(const LightEmitter& emitter);

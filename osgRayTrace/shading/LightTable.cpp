@@ -61,6 +61,33 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
     return cumulative;
 }
 
+/// A part of this many triangles is one piece of work.
+constexpr std::size_t kTrianglesAtOnce = 4096;
+
+/// Sets a triangle of a mesh, and returns its area.
+double setTriangle(const Mesh& mesh, const Instance& instance, std::size_t number,
+                   EmissiveMesh::Triangle& triangle)
+{
+    const UVec3& t = mesh.triangles[number];
+    Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
+    if (instance.placed)
+        for (Vec3& q : p)
+            q = transformPoint(instance.engineFromLocal, q);
+    triangle.a = p[0];
+    triangle.ab = p[1] - p[0];
+    triangle.ac = p[2] - p[0];
+    triangle.primitive = static_cast<uint32_t>(number);
+    if (!mesh.uvs.empty())
+    {
+        triangle.ua = mesh.uvs[t.x];
+        triangle.uab = mesh.uvs[t.y] - triangle.ua;
+        triangle.uac = mesh.uvs[t.z] - triangle.ua;
+    }
+    const double area = 0.5 * glm::length(glm::cross(Vec3d(triangle.ab), Vec3d(triangle.ac)));
+    triangle.area = static_cast<float>(area);
+    return area;
+}
+
 } // namespace
 
 LightTable::Record LightTable::parallelogram(const Light& light)
@@ -77,7 +104,7 @@ LightTable::Record LightTable::parallelogram(const Light& light)
 
 /// Builds the tables. Lights without power cost their slot and no more: a scene may hold millions.
 LightTable::LightTable(const Scene& scene, const LightTable* previous,
-                       const MaterialTable* materials)
+                       const MaterialTable* materials, const Workers* workers)
     : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
     std::vector<double> powers;
@@ -104,7 +131,7 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
         if (light.kind == LightKind::Parallelogram)
             record = parallelogram(light);
         else
-            mesh = meshOf(scene, light, record);
+            mesh = meshOf(scene, light, record, workers);
         const double power = double(luminance(light.radiance)) * record.area *
                              (light.twoSided || light.kind == LightKind::Mesh ? 2.0 : 1.0);
         if (!(power > 0.0) || !std::isfinite(power)) continue;
@@ -112,6 +139,12 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
         {
             record.mesh = static_cast<uint32_t>(_meshes.size());
             _meshes.push_back(std::move(mesh));
+        }
+        else if (isRectangle(light.edgeU, light.edgeV))
+        {
+            record.rectangle = static_cast<uint32_t>(_rectangles.size());
+            _rectangles.push_back(
+                rectangleLight(plainOf(light.corner), plainOf(light.edgeU), plainOf(light.edgeV)));
         }
         _slots[i] = static_cast<uint32_t>(_records.size());
         _records.push_back(record);
@@ -121,7 +154,7 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
     _cumulative = cumulativeOf(powers);
     for (std::size_t k = 0; k < _areaLights.size(); ++k)
         _records[k + 1].pmf = _cumulative[k] - (k ? _cumulative[k - 1] : 0.0f);
-    plantTree(previous, materials);
+    plantTree(previous, materials, workers);
     std::vector<double> deltaPowers;
     for (const uint32_t i : lightsBesideTree())
         deltaPowers.push_back(double(sumAbs(scene.lights[i].ambient)) +
@@ -132,29 +165,30 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
 
 /// Makes the tree, or takes over its shape if the emitters are as many as before and have not moved
 /// far apart.
-void LightTable::plantTree(const LightTable* previous, const MaterialTable* materials)
+void LightTable::plantTree(const LightTable* previous, const MaterialTable* materials,
+                           const Workers* workers)
 {
     constexpr double kMostSpread = 1.5; // times the spread for which the shape was made
-    std::vector<LightEmitter> emitters = lightEmitters(*_scene, *this, materials);
+    const LightEmitters emitters = lightEmitters(*_scene, *this, materials, workers);
     if (emitters.size() <= kMostWithoutTree) return;
     const LightTree* before = previous ? previous->_tree.get() : nullptr;
     if (before && before->holds(emitters))
         _tree = previous->_tree;
     else if (before && before->size() == emitters.size())
     {
-        _tree = std::make_shared<const LightTree>(*before, std::move(emitters));
+        _tree = std::make_shared<const LightTree>(*before, emitters, workers);
         if (_tree->spread() > kMostSpread * _tree->spreadAtBuild())
-            _tree = std::make_shared<const LightTree>(lightEmitters(*_scene, *this, materials));
+            _tree = std::make_shared<const LightTree>(emitters, workers);
     }
     else
-        _tree = std::make_shared<const LightTree>(std::move(emitters));
+        _tree = std::make_shared<const LightTree>(emitters, workers);
     for (const uint32_t i : _deltaLights)
         if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
-    findEmitters();
+    findEmitters(workers);
 }
 
 /// Records the emitters of area lights, so that paths that meet a light find its probability.
-void LightTable::findEmitters()
+void LightTable::findEmitters(const Workers* workers)
 {
     std::size_t entries = 0;
     for (const uint32_t i : _areaLights)
@@ -167,13 +201,17 @@ void LightTable::findEmitters()
                        : 1;
     }
     _emitterOf.assign(entries, kInvalid);
-    for (uint32_t number = 0; number < _tree->size(); ++number)
+    const auto setPart = [this](std::size_t begin, std::size_t end)
     {
-        const LightEmitter& emitter = _tree->emitter(number);
-        if (emitter.isPoint()) continue;
-        const uint32_t triangle = emitter.flags & kTriangle ? emitter.primitive : 0;
-        _emitterOf[record(emitter.light).emitters + triangle] = number;
-    }
+        for (auto number = static_cast<uint32_t>(begin); number < end; ++number)
+        {
+            const LightEmitter& emitter = _tree->emitter(number);
+            if (emitter.isPoint()) continue;
+            const uint32_t triangle = emitter.flags & kTriangle ? emitter.primitive : 0;
+            _emitterOf[record(emitter.light).emitters + triangle] = number;
+        }
+    };
+    forEachPart(workers, _tree->size(), kTrianglesAtOnce, setPart);
 }
 
 std::vector<uint32_t> LightTable::lightsInSpace() const
@@ -200,43 +238,34 @@ uint32_t LightTable::emitterOf(uint32_t light, uint32_t primitive) const
     return _emitterOf[own.emitters + (own.mesh == kInvalid ? 0 : primitive)];
 }
 
-EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& record)
+EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& record,
+                                const Workers* workers)
 {
     const Instance& instance = scene.instances[light.instance];
     const Mesh& mesh = *scene.meshes[instance.mesh];
     EmissiveMesh emissive;
-    std::vector<double> areas;
-    emissive.triangles.reserve(mesh.triangles.size());
-    areas.reserve(mesh.triangles.size());
+    emissive.triangles.resize(mesh.triangles.size());
+    std::vector<double> areas(mesh.triangles.size());
+    forEachPart(workers, mesh.triangles.size(), kTrianglesAtOnce,
+                [&](std::size_t begin, std::size_t end)
+                {
+                    for (std::size_t k = begin; k < end; ++k)
+                        areas[k] = setTriangle(mesh, instance, k, emissive.triangles[k]);
+                });
+    std::size_t kept = 0;
     double total = 0.0;
     float largest = 0.0f;
-    for (std::size_t number = 0; number < mesh.triangles.size(); ++number)
+    for (std::size_t k = 0; k < areas.size(); ++k)
     {
-        const UVec3& t = mesh.triangles[number];
-        Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-        if (instance.placed)
-            for (Vec3& q : p)
-                q = transformPoint(instance.engineFromLocal, q);
-        EmissiveMesh::Triangle triangle;
-        triangle.a = p[0];
-        triangle.ab = p[1] - p[0];
-        triangle.ac = p[2] - p[0];
-        triangle.primitive = static_cast<uint32_t>(number);
-        if (!mesh.uvs.empty())
-        {
-            triangle.ua = mesh.uvs[t.x];
-            triangle.uab = mesh.uvs[t.y] - triangle.ua;
-            triangle.uac = mesh.uvs[t.z] - triangle.ua;
-        }
-        const double area =
-            0.5 * glm::length(glm::cross(glm::dvec3(triangle.ab), glm::dvec3(triangle.ac)));
-        if (!(area > 0.0)) continue;
-        triangle.area = static_cast<float>(area);
-        emissive.triangles.push_back(triangle);
-        largest = std::max(largest, sumAbs(p[0]) + sumAbs(triangle.ab) + sumAbs(triangle.ac));
-        areas.push_back(area);
-        total += area;
+        if (!(areas[k] > 0.0)) continue;
+        if (kept != k) emissive.triangles[kept] = emissive.triangles[k];
+        const EmissiveMesh::Triangle& t = emissive.triangles[kept];
+        largest = std::max(largest, sumAbs(t.a) + sumAbs(t.ab) + sumAbs(t.ac));
+        total += areas[k];
+        areas[kept++] = areas[k];
     }
+    emissive.triangles.resize(kept);
+    areas.resize(kept);
     emissive.cumulative = cumulativeOf(areas);
     record.area = static_cast<float>(total);
     record.offset = kLightOffsetScale * largest;

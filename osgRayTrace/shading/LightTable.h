@@ -6,6 +6,7 @@
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/shading/LightTree.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
+#include "osgRayTrace/shading/RectangleLight.h"
 
 #include <memory>
 #include <optional>
@@ -75,8 +76,9 @@ public:
     /// Builds the table. previous: table of the last snapshot, whose tables of the environment and
     /// whose tree are taken over if possible; or null. materials: for what textures emit; null if
     /// nothing is textured.
+    /// workers: threads that build the table; null: the calling thread does.
     explicit LightTable(const Scene& scene, const LightTable* previous = nullptr,
-                        const MaterialTable* materials = nullptr);
+                        const MaterialTable* materials = nullptr, const Workers* workers = nullptr);
 
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
@@ -119,6 +121,13 @@ public:
     /// Returns the unit normal of the front of a parallelogram.
     Vec3 normal(uint32_t light) const { return record(light).normal; }
 
+    /// Returns the light as a rectangle; null if it is none.
+    const RectangleLight* rectangle(uint32_t light) const
+    {
+        const uint32_t number = record(light).rectangle;
+        return number == kInvalid ? nullptr : &_rectangles[number];
+    }
+
     /// Returns how far a point on the light may be off it by rounding [length].
     float pointOffset(uint32_t light) const { return record(light).offset; }
 
@@ -149,6 +158,15 @@ public:
         return distance * distance / (record(light).area * cosThetaL);
     }
 
+    /// Returns the density [1/sr] of light samples at p for a ray from there: by solid angle if the
+    /// light is a rectangle and that is wide, else as pdfArea.
+    float pdfFrom(uint32_t light, Vec3 p, float distance, float cosThetaL) const
+    {
+        const RectangleLight* own = rectangle(light);
+        const float angle = own ? sampledAngle(*own, plainOf(p)) : 0.0f;
+        return angle > 0.0f ? 1.0f / angle : pdfArea(light, distance, cosThetaL);
+    }
+
 private:
     /// Holds an area light of some power.
     struct Record
@@ -156,9 +174,10 @@ private:
         float area = 0.0f;
         float pmf = 0.0f;
         float offset = 0.0f;
-        Vec3 normal{0.0f};        ///< parallelograms only
-        uint32_t mesh = kInvalid; ///< index into _meshes
-        uint32_t emitters = 0;    ///< first entry of _emitterOf
+        Vec3 normal{0.0f};             ///< parallelograms only
+        uint32_t mesh = kInvalid;      ///< index into _meshes
+        uint32_t rectangle = kInvalid; ///< index into _rectangles
+        uint32_t emitters = 0;         ///< first entry of _emitterOf
     };
     const Record& record(uint32_t light) const
     {
@@ -168,9 +187,11 @@ private:
     static Record parallelogram(const Light& light);
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;
-    static EmissiveMesh meshOf(const Scene& scene, const Light& light, Record& record);
-    void plantTree(const LightTable* previous, const MaterialTable* materials);
-    void findEmitters();
+    static EmissiveMesh meshOf(const Scene& scene, const Light& light, Record& record,
+                               const Workers* workers);
+    void plantTree(const LightTable* previous, const MaterialTable* materials,
+                   const Workers* workers);
+    void findEmitters(const Workers* workers);
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
@@ -181,6 +202,7 @@ private:
     std::vector<float> _cumulative;      ///< an area light: running probability; the last is 1
     std::vector<float> _deltaCumulative; ///< a delta light: running probability; the last is 1
     std::vector<EmissiveMesh> _meshes;   ///< for records of LightKind::Mesh
+    std::vector<RectangleLight> _rectangles;
     std::shared_ptr<const LightTree> _tree;
     std::vector<uint32_t> _lightsBesideTree;
     std::vector<uint32_t> _emitterOf; ///< by light and triangle: number in the tree

@@ -8,59 +8,121 @@
 namespace osgRayTrace::engine
 {
 
-LightTree::LightTree(std::vector<LightEmitter> emitters) : _emitters(std::move(emitters))
+LightTree::LightTree(const LightEmitters& emitters, const Workers* workers)
 {
-    OSGRAYTRACE_ASSERT(_emitters.size() >= 2);
-    std::vector<LightBounds> bounds;
-    bounds.reserve(_emitters.size());
-    for (const LightEmitter& emitter : _emitters)
-        bounds.push_back(boundsOf(emitter));
-    _pairs = std::make_shared<const LightPairs>(lightPairs(bounds));
-    setNodes();
+    OSGRAYTRACE_ASSERT(emitters.size() >= 2);
+    _pairs = std::make_shared<const LightPairs>(lightPairs(emitters, workers));
+    setNodes(emitters, workers);
     _spreadAtBuild = _spread;
 }
 
-LightTree::LightTree(const LightTree& shape, std::vector<LightEmitter> emitters)
-    : _pairs(shape._pairs), _emitters(std::move(emitters)), _spreadAtBuild(shape._spreadAtBuild)
+LightTree::LightTree(const LightTree& shape, const LightEmitters& emitters, const Workers* workers)
+    : _pairs(shape._pairs), _spreadAtBuild(shape._spreadAtBuild)
 {
-    OSGRAYTRACE_ASSERT(_emitters.size() == shape.size());
-    setNodes();
+    OSGRAYTRACE_ASSERT(emitters.size() == shape.size());
+    setNodes(emitters, workers);
 }
 
-/// Puts the emitters in the order of the leaves, and joins their bounds from the leaves up: the
-/// numbers of pairs grow downwards.
-void LightTree::setNodes()
+/// Puts the emitters in the order of the leaves, and joins their bounds from the leaves up. The
+/// subtrees do not depend on each other, and their sums are added in their order.
+void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
 {
-    const std::vector<uint32_t>& children = _pairs->children;
-    std::vector<LightEmitter> ordered(_emitters.size());
-    _numbers.resize(_emitters.size());
-    for (uint32_t number = 0; number < _emitters.size(); ++number)
+    const std::size_t pairs = emitters.size() - 1;
+    _emitters = LightEmitters(emitters.size());
+    _numbers = UnclearedArray<uint32_t>(emitters.size());
+    _nodes = UnclearedArray<LightNode>(2 * pairs);
+    _parents = UnclearedArray<uint32_t>(pairs);
+    _leafNodes = UnclearedArray<uint32_t>(emitters.size());
+    _parents[0] = kInvalid;
+    const std::vector<LightPairs::Subtree>& subtrees = _pairs->subtrees;
+    std::vector<Joined> parts(subtrees.size());
+    forEachPart(workers, subtrees.size(), 1,
+                [&](std::size_t k, std::size_t) { parts[k] = setSubtree(subtrees[k], emitters); });
+    JoinedPairs joinedPairs;
+    for (std::size_t k = 0; k < parts.size(); ++k)
     {
-        ordered[number] = _emitters[_pairs->order[number]];
-        _numbers[_pairs->order[number]] = number;
+        joinedPairs[subtrees[k].pair] = parts[k];
+        _spread += parts[k].spread;
+        _areasOnly &= !parts[k].points;
     }
-    _emitters = std::move(ordered);
+    for (std::size_t k = _pairs->top.size(); k-- > 0;)
+    {
+        const uint32_t pair = _pairs->top[k];
+        const Joined top = setTop(pair, emitters, joinedPairs);
+        joinedPairs[pair] = top;
+        _spread += top.spread;
+        _areasOnly &= !top.points;
+    }
+}
 
-    _nodes.resize(children.size());
-    _parents.assign(children.size() / 2, kInvalid);
-    _leafNodes.resize(_emitters.size());
-    std::vector<LightBounds> pairs(children.size() / 2);
-    for (std::size_t pair = pairs.size(); pair-- > 0;)
+void LightTree::setLeaf(uint32_t number, const LightEmitters& emitters)
+{
+    const uint32_t index = _pairs->order[number];
+    _emitters[number] = emitters[index];
+    _numbers[index] = number;
+}
+
+/// Sets a node, and the way up to it from what is below.
+void LightTree::setNode(uint32_t node, const LightBounds& bounds)
+{
+    const uint32_t next = _pairs->children[node];
+    if (next & LightPairs::kLeaf)
+        _leafNodes[next & ~LightPairs::kLeaf] = node;
+    else
+        _parents[next] = node;
+    _nodes[node] = nodeOf(bounds, next);
+}
+
+LightTree::Joined LightTree::setSubtree(const LightPairs::Subtree& subtree,
+                                        const LightEmitters& emitters)
+{
+    Joined all;
+    for (uint32_t k = 0; k <= subtree.pairs; ++k)
     {
-        LightBounds both[2];
-        for (std::size_t side = 0; side < 2; ++side)
-        {
-            const auto node = static_cast<uint32_t>(2 * pair + side);
-            const uint32_t next = children[node];
-            const bool leaf = next & LightPairs::kLeaf;
-            const uint32_t number = next & ~LightPairs::kLeaf;
-            both[side] = leaf ? boundsOf(_emitters[number]) : pairs[number];
-            (leaf ? _leafNodes : _parents)[number] = node;
-            _nodes[node] = nodeOf(both[side], next);
-            _spread += static_cast<double>(both[side].intensity) * _nodes[node].radius;
-        }
-        pairs[pair] = joined(both[0], both[1]);
+        setLeaf(subtree.leaf + k, emitters);
+        all.points |= _emitters[subtree.leaf + k].isPoint();
     }
+    std::vector<LightBounds> pairs(subtree.pairs);
+    for (uint32_t k = subtree.pairs; k-- > 0;)
+    {
+        const uint32_t first = 2 * (subtree.pair + k);
+        LightBounds both[2];
+        for (uint32_t side = 0; side < 2; ++side)
+        {
+            const uint32_t next = _pairs->children[first + side];
+            both[side] = next & LightPairs::kLeaf ? boundsOf(_emitters[next & ~LightPairs::kLeaf])
+                                                  : pairs[next - subtree.pair];
+            setNode(first + side, both[side]);
+            all.spread += static_cast<double>(both[side].intensity) * _nodes[first + side].radius;
+        }
+        pairs[k] = joined(both[0], both[1]);
+    }
+    all.bounds = pairs[0];
+    return all;
+}
+
+LightTree::Joined LightTree::setTop(uint32_t pair, const LightEmitters& emitters,
+                                    const JoinedPairs& below)
+{
+    LightBounds both[2];
+    Joined all;
+    for (uint32_t side = 0; side < 2; ++side)
+    {
+        const uint32_t node = 2 * pair + side, next = _pairs->children[node];
+        if (next & LightPairs::kLeaf)
+        {
+            const uint32_t number = next & ~LightPairs::kLeaf;
+            setLeaf(number, emitters);
+            all.points |= _emitters[number].isPoint();
+            both[side] = boundsOf(_emitters[number]);
+        }
+        else
+            both[side] = below.at(next).bounds;
+        setNode(node, both[side]);
+        all.spread += static_cast<double>(both[side].intensity) * _nodes[node].radius;
+    }
+    all.bounds = joined(both[0], both[1]);
+    return all;
 }
 
 LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float u) const
@@ -93,7 +155,7 @@ float LightTree::pmf(Vec3 p, Vec3 normal, uint32_t emitter) const
     return pmf;
 }
 
-bool LightTree::holds(const std::vector<LightEmitter>& emitters) const
+bool LightTree::holds(const LightEmitters& emitters) const
 {
     if (emitters.size() != _emitters.size()) return false;
     for (std::size_t i = 0; i < emitters.size(); ++i)

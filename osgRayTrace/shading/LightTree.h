@@ -5,24 +5,36 @@
 #include "osgRayTrace/shading/LightEmitters.h"
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
 /// The shape of a LightTree over count emitters: count - 1 pairs of nodes. A child is the number of
-/// a pair, which is above that of its parent, or kLeaf and the number of an emitter.
+/// a pair, which is above that of its parent, or kLeaf and the number of an emitter. The pairs
+/// below a pair, and the leaves below it, are numbered without gaps.
 struct LightPairs
 {
     static constexpr uint32_t kLeaf = 0x80000000u;
 
+    /// A pair with all that is below it.
+    struct Subtree
+    {
+        uint32_t pair = 0, pairs = 0; ///< the number of the pair, and how many there are
+        uint32_t leaf = 0;            ///< the first of pairs + 1 leaves
+    };
+
     std::vector<uint32_t> children; ///< two for each pair; pair 0 is the root's
     std::vector<uint32_t> order;    ///< the emitters in the order of the leaves
+    std::vector<Subtree> subtrees;  ///< disjoint ones, which threads work on at once
+    std::vector<uint32_t> top;      ///< the pairs above them, each after its parent
 };
 
-/// Returns a shape for emitters with these bounds, at least two: each pair parts the emitters of a
-/// node where the sum of power times surface times solid angle is least [Conty18, sect. 4.4].
-LightPairs lightPairs(const std::vector<LightBounds>& bounds);
+/// Returns a shape for at least two emitters: each pair parts the emitters of a node where the sum
+/// of power times surface times solid angle is least [Conty18, sect. 4.4]. The shape is the same
+/// for any workers, which may be null.
+LightPairs lightPairs(const LightEmitters& emitters, const Workers* workers);
 
 /// A binary tree over emitters, which is descended from the root: at each pair of nodes one is
 /// chosen in proportion to importance() [Conty18]. Emitters are numbered in the order of the
@@ -30,11 +42,13 @@ LightPairs lightPairs(const std::vector<LightBounds>& bounds);
 class LightTree
 {
 public:
-    /// Takes at least two emitters.
-    explicit LightTree(std::vector<LightEmitter> emitters);
+    /// Takes at least two emitters. workers: threads that build the tree; null: the calling thread
+    /// does. The tree does not depend on them.
+    explicit LightTree(const LightEmitters& emitters, const Workers* workers = nullptr);
 
     /// Takes the shape of a tree over as many emitters, which have moved or shine otherwise.
-    LightTree(const LightTree& shape, std::vector<LightEmitter> emitters);
+    LightTree(const LightTree& shape, const LightEmitters& emitters,
+              const Workers* workers = nullptr);
 
     std::size_t size() const { return _emitters.size(); }
     const LightEmitter& emitter(uint32_t number) const { return _emitters[number]; }
@@ -66,28 +80,42 @@ public:
     double spreadAtBuild() const { return _spreadAtBuild; }
 
     /// Returns whether the tree is that of these emitters, in the constructor's order.
-    bool holds(const std::vector<LightEmitter>& emitters) const;
+    bool holds(const LightEmitters& emitters) const;
 
 private:
-    void setNodes();
-    void setParents();
+    struct Joined ///< what is known of a pair that is set
+    {
+        LightBounds bounds;  ///< of the lights below
+        double spread = 0.0; ///< of the nodes that were set with it
+        bool points = false; ///< whether leaves that were set with it are point lights
+    };
+    using JoinedPairs = std::unordered_map<uint32_t, Joined>;
+
+    void setNodes(const LightEmitters& emitters, const Workers* workers);
+    Joined setSubtree(const LightPairs::Subtree& subtree, const LightEmitters& emitters);
+    Joined setTop(uint32_t pair, const LightEmitters& emitters, const JoinedPairs& below);
+    void setLeaf(uint32_t number, const LightEmitters& emitters);
+    void setNode(uint32_t node, const LightBounds& bounds);
 
     std::shared_ptr<const LightPairs> _pairs;
-    std::vector<LightEmitter> _emitters; ///< by number
-    std::vector<uint32_t> _numbers;
-    std::vector<LightNode> _nodes;    ///< two for each pair
-    std::vector<uint32_t> _parents;   ///< by pair: the node above it; kInvalid at the root
-    std::vector<uint32_t> _leafNodes; ///< by emitter: its node
+    LightEmitters _emitters; ///< by number
+    UnclearedArray<uint32_t> _numbers;
+    UnclearedArray<LightNode> _nodes;    ///< two for each pair
+    UnclearedArray<uint32_t> _parents;   ///< by pair: the node above it; kInvalid at the root
+    UnclearedArray<uint32_t> _leafNodes; ///< by emitter: its node
+    bool _areasOnly = true;              ///< no emitter is a point light
     double _spread = 0.0, _spreadAtBuild = 0.0;
 };
 
 /// Returns the probability of the first node of a pair.
+template <NodeLights kLights = NodeLights::Any>
 OSGRAYTRACE_INLINE float shareOfFirst(const LightNode& first, const LightNode& second, PlainVec3 p,
                                       PlainVec3 normal)
 {
     // Rounding must not take the last chance of a node that may shine.
     constexpr float kLeastShare = 0x1p-20f;
-    const float a = importance(first, p, normal), b = importance(second, p, normal);
+    const float a = importance<kLights>(first, p, normal);
+    const float b = importance<kLights>(second, p, normal);
     const float sum = a + b;
     const float share = select(maskOf(sum > 0.0f) & maskOf(sum < kInfinity), a / sum, 0.5f);
     const float above = select(share > kLeastShare, share, kLeastShare);

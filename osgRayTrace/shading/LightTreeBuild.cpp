@@ -29,6 +29,9 @@ constexpr std::size_t kLongestAxisOnly = 4096;
 
 constexpr int kMostUneven = 40;
 
+/// A node of no more emitters is one piece of work.
+constexpr std::size_t kMostInSubtree = 4096;
+
 /// The part of an emitter's bounds that the build reads.
 struct BuildEmitter
 {
@@ -74,55 +77,102 @@ struct Split
     float cost = kInfinity;
 };
 
+BuildEmitter buildEmitter(const LightEmitter& emitter, uint32_t index)
+{
+    const LightBounds b = boundsOf(emitter);
+    // The normals of what shines to both sides are taken to the same half of space.
+    const float sum = b.axis.x + 2.0f * b.axis.y + 3.0f * b.axis.z;
+    const float sign = b.twoSided && sum < 0.0f ? -1.0f : 1.0f;
+    const float even = b.cosCone > 0.0f ? 1.0f : 0.0f;
+    return {b.low, b.high, b.axis * (sign * even * b.intensity), b.intensity, index};
+}
+
 class Builder
 {
 public:
-    explicit Builder(const std::vector<LightBounds>& bounds)
+    Builder(const LightEmitters& emitters, const Workers* workers)
+        : _workers(workers), _emitters(emitters.size())
     {
-        _emitters.reserve(bounds.size());
-        for (uint32_t i = 0; i < bounds.size(); ++i)
-        {
-            const LightBounds& b = bounds[i];
-            // The normals of what shines to both sides are taken to the same half of space.
-            const float sum = b.axis.x + 2.0f * b.axis.y + 3.0f * b.axis.z;
-            const float sign = b.twoSided && sum < 0.0f ? -1.0f : 1.0f;
-            const float even = b.cosCone > 0.0f ? 1.0f : 0.0f;
-            _emitters.push_back(
-                {b.low, b.high, b.axis * (sign * even * b.intensity), b.intensity, i});
-        }
-        _pairs.children.reserve(2 * bounds.size() - 2);
-        _pairs.order.reserve(bounds.size());
+        forEachPart(workers, emitters.size(), kMostInSubtree,
+                    [&](std::size_t begin, std::size_t end)
+                    {
+                        for (std::size_t i = begin; i < end; ++i)
+                            _emitters[i] = buildEmitter(emitters[i], static_cast<uint32_t>(i));
+                    });
+        _pairs.children.resize(2 * emitters.size() - 2);
+        _pairs.order.resize(emitters.size());
     }
 
+    /// Parts large nodes level by level, the nodes of a level at once, then all that is below at
+    /// once.
     LightPairs build()
     {
-        addPair(0, _emitters.size(), 0);
+        std::vector<Node> small, level{{0, _emitters.size(), 0, 0}};
+        while (!level.empty())
+        {
+            std::vector<Node> large, next;
+            for (const Node& node : level)
+                (node.end - node.begin > kMostInSubtree ? large : small).push_back(node);
+            std::vector<std::size_t> middles(large.size());
+            forEachPart(_workers, large.size(), 1,
+                        [&](std::size_t k, std::size_t) { middles[k] = part(large[k]); });
+            for (std::size_t k = 0; k < large.size(); ++k)
+            {
+                _pairs.top.push_back(large[k].pair);
+                for (const Node& child : setChildren(large[k], middles[k]))
+                    if (child.end - child.begin > 1) next.push_back(child);
+            }
+            level = std::move(next);
+        }
+        for (const Node& node : small)
+            _pairs.subtrees.push_back({node.pair, static_cast<uint32_t>(node.end - node.begin - 1),
+                                       static_cast<uint32_t>(node.begin)});
+        forEachPart(_workers, small.size(), 1,
+                    [&](std::size_t k, std::size_t) { addBelow(small[k]); });
+        for (std::size_t i = 0; i < _emitters.size(); ++i)
+            _pairs.order[i] = _emitters[i].index;
         return std::move(_pairs);
     }
 
 private:
-    uint32_t addNode(std::size_t begin, std::size_t end, int depth)
+    /// Some emitters, and the pair that parts them.
+    struct Node
     {
-        if (end - begin > 1) return addPair(begin, end, depth);
-        _pairs.order.push_back(_emitters[begin].index);
-        return LightPairs::kLeaf | static_cast<uint32_t>(_pairs.order.size() - 1);
+        std::size_t begin, end;
+        int depth;
+        uint32_t pair;
+    };
+
+    /// Sets the children of a node's pair, and returns them. The pairs of the first child come
+    /// before those of the second, and there is one less than emitters.
+    std::array<Node, 2> setChildren(const Node& node, std::size_t middle)
+    {
+        const auto before = static_cast<uint32_t>(middle - node.begin);
+        const std::array<Node, 2> children{
+            {{node.begin, middle, node.depth + 1, node.pair + 1},
+             {middle, node.end, node.depth + 1, node.pair + before}}};
+        for (std::size_t side = 0; side < 2; ++side)
+        {
+            const Node& child = children[side];
+            _pairs.children[2 * std::size_t(node.pair) + side] =
+                child.end - child.begin == 1
+                    ? LightPairs::kLeaf | static_cast<uint32_t>(child.begin)
+                    : child.pair;
+        }
+        return children;
     }
 
-    uint32_t addPair(std::size_t begin, std::size_t end, int depth)
+    void addBelow(const Node& node)
     {
-        const auto pair = static_cast<uint32_t>(_pairs.children.size() / 2);
-        _pairs.children.resize(_pairs.children.size() + 2);
-        const std::size_t middle = part(begin, end, depth);
-        _pairs.children[2 * pair] = addNode(begin, middle, depth + 1);
-        _pairs.children[2 * pair + 1] = addNode(middle, end, depth + 1);
-        return pair;
+        for (const Node& child : setChildren(node, part(node)))
+            if (child.end - child.begin > 1) addBelow(child);
     }
 
     /// Puts the emitters of a node in order of their side. Returns the first one of the second
     /// side. Below kMostUneven levels the sides have as many emitters.
-    std::size_t part(std::size_t begin, std::size_t end, int depth)
+    std::size_t part(const Node& node)
     {
-        const std::size_t count = end - begin;
+        const std::size_t begin = node.begin, end = node.end, count = end - begin;
         if (count == 2) return begin + 1;
         Vec3 low(kInfinity), high(-kInfinity);
         for (std::size_t i = begin; i < end; ++i)
@@ -134,11 +184,10 @@ private:
         const int longest = d.x >= d.y && d.x >= d.z ? 0 : (d.y >= d.z ? 1 : 2);
         Split best;
         for (int axis = 0; axis < 3; ++axis)
-            if (depth < kMostUneven && d[axis] > 0.0f &&
+            if (node.depth < kMostUneven && d[axis] > 0.0f &&
                 (axis == longest || count <= kLongestAxisOnly))
                 tryAxis(begin, end, axis, low[axis], d[axis], d[longest], best);
-        const auto first = _emitters.begin() + static_cast<std::ptrdiff_t>(begin);
-        const auto last = _emitters.begin() + static_cast<std::ptrdiff_t>(end);
+        BuildEmitter *const first = _emitters.data() + begin, *const last = _emitters.data() + end;
         if (best.axis >= 0)
         {
             const auto middle = std::partition(first, last,
@@ -183,15 +232,16 @@ private:
         }
     }
 
-    std::vector<BuildEmitter> _emitters;
+    const Workers* _workers;
+    UnclearedArray<BuildEmitter> _emitters;
     LightPairs _pairs;
 };
 
 } // namespace
 
-LightPairs lightPairs(const std::vector<LightBounds>& bounds)
+LightPairs lightPairs(const LightEmitters& emitters, const Workers* workers)
 {
-    return Builder(bounds).build();
+    return Builder(emitters, workers).build();
 }
 
 } // namespace osgRayTrace::engine

@@ -12,6 +12,7 @@ namespace
 
 /// Takes lane i from a pair to one of its nodes, if it has not come to an emitter yet. Returns all
 /// bits if it goes on.
+template <NodeLights kLights>
 OSGRAYTRACE_INLINE uint32_t descendLane(const LightNode* nodes, const Vec3Lanes& p,
                                         const Vec3Lanes& normal, int i, FloatLanes& u,
                                         UintLanes& at, FloatLanes& pmf)
@@ -19,7 +20,7 @@ OSGRAYTRACE_INLINE uint32_t descendLane(const LightNode* nodes, const Vec3Lanes&
     const uint32_t open = maskOf((at[i] & LightPairs::kLeaf) == 0);
     const uint32_t node = 2 * (at[i] & open);
     const float share =
-        shareOfFirst(nodes[node], nodes[node + 1], plainOf(p, i), plainOf(normal, i));
+        shareOfFirst<kLights>(nodes[node], nodes[node + 1], plainOf(p, i), plainOf(normal, i));
     const uint32_t first = maskOf(u[i] < share);
     const float own = select(first, share, 1.0f - share);
     const float rescaled = (u[i] - select(first, 0.0f, share)) / own;
@@ -38,7 +39,19 @@ LaneMask descend(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& no
     LaneMask open = 0;
     OSGRAYTRACE_SIMD_OR(open)
     for (int i = 0; i < kLanes; ++i)
-        open |= bitOfLane(descendLane(nodes, p, normal, i, u, at, pmf), i);
+        open |= bitOfLane(descendLane<NodeLights::Any>(nodes, p, normal, i, u, at, pmf), i);
+    return open;
+}
+
+/// Does what descend does, in a tree without point lights.
+OSGRAYTRACE_KERNEL
+LaneMask descendAreas(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
+                      FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+{
+    LaneMask open = 0;
+    OSGRAYTRACE_SIMD_OR(open)
+    for (int i = 0; i < kLanes; ++i)
+        open |= bitOfLane(descendLane<NodeLights::Areas>(nodes, p, normal, i, u, at, pmf), i);
     return open;
 }
 
@@ -53,7 +66,8 @@ void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, const F
         emitters[i] = 0;
         pmf[i] = 1.0f;
     }
-    while (descend(_nodes.data(), p, normal, left, emitters, pmf) != 0)
+    const auto step = _areasOnly ? descendAreas : descend;
+    while (step(_nodes.data(), p, normal, left, emitters, pmf) != 0)
     {
     }
     for (int i = 0; i < kLanes; ++i)

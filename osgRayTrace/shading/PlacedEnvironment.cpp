@@ -18,9 +18,9 @@ PlacedEnvironment::PlacedEnvironment(const Light& light, uint32_t index,
 {
 }
 
-EnvironmentSample PlacedEnvironment::sample(float u, float v) const
+EnvironmentSample PlacedEnvironment::sample(float u, float v, EnvironmentDensity density) const
 {
-    EnvironmentSample sample = map().sample(u, v);
+    EnvironmentSample sample = map().sample(u, v, density);
     sample.direction = _engineFromMap * sample.direction;
     sample.radiance *= _scale;
     return sample;

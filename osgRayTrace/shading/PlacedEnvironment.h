@@ -24,13 +24,18 @@ public:
     uint32_t light() const { return _index; } ///< index into Scene::lights
     bool isVisible() const { return _visible; }
     bool isBlack() const { return map().isBlack() || luminance(_scale) <= 0.0f; }
+    bool isEven() const { return map().isEven(); } ///< see EnvironmentMap::isEven
 
     /// Returns the integral of radiance over all directions.
     Vec3 integral() const { return Vec3(map().integral()) * _scale; }
 
-    /// Returns a sample, distributed as the image's luminance; u, v in [0,1).
-    EnvironmentSample sample(float u, float v) const;
-    float pdfW(Vec3 direction) const { return map().pdfW(_mapFromEngine * direction); }
+    /// Returns a sample; u, v in [0,1).
+    EnvironmentSample sample(float u, float v,
+                             EnvironmentDensity density = EnvironmentDensity::Luminance) const;
+    float pdfW(Vec3 direction, EnvironmentDensity density) const
+    {
+        return map().pdfW(_mapFromEngine * direction, density);
+    }
 
     /// Returns the radiance that lights surfaces; seenRadiance returns the radiance for eyes, which
     /// is interpolated: see EnvironmentMap.

@@ -28,6 +28,7 @@ SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLa
     const FloatLanes &directionX = incident.directionX, &directionY = incident.directionY,
                      &directionZ = incident.directionZ;
     const Vec3Lanes& normal = incident.normal;
+    FloatLanes shares;
     LaneMask outcome = 0; // alive, and from bit 16 on transmitted
     OSGRAYTRACE_SIMD_OR(outcome)
     for (int i = 0; i < kLanes; ++i)
@@ -55,6 +56,7 @@ SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLa
         const float sum = reflectedShare + refractedShare;
         const float p = select(refractedShare > 0.0f, reflectedShare / sum, 1.0f);
         const uint32_t reflects = maskOf(uLobe[i] < p);
+        shares[i] = p;
 
         // Where 1 - c^2 rounds to more or less, an index of 1 must bend nothing.
         const float sin2T = (1.0f - cosO * cosO) * inverseEta * inverseEta;
@@ -83,7 +85,7 @@ SmoothLanes sampleSmoothLanes(const InterfaceLanes& interfaces, const IncidentLa
         const uint32_t alive = use & maskOf(cosO > 0.0f) & maskOf(sum > 0.0f) & (reflects | passes);
         outcome |= bitOfLane(alive, i) | (bitOfLane(alive & ~reflects, i) << kLanes);
     }
-    return {outcome & kAllLanes, outcome >> kLanes};
+    return {outcome & kAllLanes, outcome >> kLanes, shares};
 }
 
 } // namespace osgRayTrace::engine

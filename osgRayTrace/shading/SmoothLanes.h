@@ -46,6 +46,7 @@ struct SmoothLanes
 {
     LaneMask alive;       ///< other lanes have to be discarded
     LaneMask transmitted; ///< lanes among alive that were refracted
+    FloatLanes reflects;  ///< probability of reflection
 };
 
 /// Does for lanes what sampleBsdf does for one surface: one Fresnel term chooses the lobe and

@@ -2,6 +2,7 @@
 // OpenGL.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/apps/ComparedPictures.h"
 #include "tests/apps/Program.h"
 
 #include "osgPlugins/exr/ExrImage.h"
@@ -308,9 +309,9 @@ TEST_CASE("osgraytrace in a context: time stands still, as it does without one",
     moved->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f)));
     moved->addUpdateCallback(new osg::AnimationPathCallback(path));
     draw(folder, *moved, "--passes 16");
-    const std::string still = contents(folder / "x.exr");
+    std::filesystem::rename(folder / "x.exr", folder / "still.exr");
     draw(folder, *moved, "--passes 16 --context egl");
-    CHECK((contents(folder / "x.exr") == still));
+    CHECK(differByRounding(folder / "x.exr", folder / "still.exr"));
 }
 
 TEST_CASE("osgraytrace without a context: one line and the statistics say what is left out",

@@ -1,7 +1,7 @@
 // RewrittenArraysTest.cpp - arrays that are marked as modified although they keep their values.
 // Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/common/MemoryHash.h"
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 
 #include "tests/Catch.h"

@@ -164,7 +164,8 @@ done
 # Each frame of a small window is a whole pass, without shadows, so that pictures can be compared. Programs
 # that choose their threads have them all the same.
 export OSG_WINDOW="0 0 320 240" OSG_THREADING=SingleThreaded OSG_NOTIFY_LEVEL=NOTICE
-export OSGRAYTRACE_SHADOWS=false OSGRAYTRACE_FRAME_BUDGET=0 OSGRAYTRACE_TEST_FRAMES=30
+export OSGRAYTRACE_SHADOWS=false OSGRAYTRACE_FRAME_BUDGET=0
+export OSGRAYTRACE_TEST_FRAMES=${OSGRAYTRACE_TEST_FRAMES:-30}
 mkdir -p "$OUT/models"
 OSG_NOTIFY_LEVEL=FATAL "$BUILD/bin/clientModels" "$OUT/models" || { echo "no models" >&2; exit 2; }
 

@@ -27,7 +27,7 @@ template <class Value> Film filmOf(int width, int height, const Value& value)
                 for (int i = 0; i < kLanes; ++i)
                     values[b].r[i] = values[b].g[i] = values[b].b[i] = values[b].a[i] =
                         value(pass, film.tileX(tile) + laneX(b, i), film.tileY(tile) + laneY(b, i));
-            film.addPass(tile, values);
+            film.addPass(tile, film.tilePasses(tile), values);
         }
     }
     return film;

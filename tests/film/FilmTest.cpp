@@ -34,7 +34,7 @@ void addConstant(Film& film, int tile, float value)
     TileRgba values;
     fill(values, [value](int, int) { return value; });
     film.beginPass();
-    film.addPass(tile, values);
+    film.addPass(tile, film.tilePasses(tile), values);
 }
 
 } // namespace
@@ -140,7 +140,7 @@ TEST_CASE("film: a million passes keep their mean to 1e-6", "[film][stability 38
         sum += value;
         tile[0].g[0] = value;
         film.beginPass();
-        film.addPass(0, tile);
+        film.addPass(0, film.tilePasses(0), tile);
     }
     TileRgba mean;
     film.mean(0, mean);
@@ -168,7 +168,7 @@ TEST_CASE("film: the error estimate is the true error on average", "[film][stati
             {
                 fill(tile, [&](int, int) { return random() + random() + random() + random(); });
                 film.beginPass();
-                film.addPass(0, tile);
+                film.addPass(0, film.tilePasses(0), tile);
             }
             const double error = estimateError(film, Workers(1)).relative;
             estimated += error * error;
@@ -199,7 +199,7 @@ TEST_CASE("film: the error estimate leaves out pixels beyond the image", "[film]
         fill(tile, [pass](int pixel, int)
              { return pixel == 15 ? 1000.0f * static_cast<float>(pass) : 1.0f; });
         film.beginPass();
-        film.addPass(0, tile);
+        film.addPass(0, film.tilePasses(0), tile);
     }
     const ErrorEstimate error = estimateError(film, Workers(1));
     CHECK(error.relative == 0.0);

@@ -33,7 +33,7 @@ template <class Value> Film filmOf(int width, int height, const Value& value)
                 film.depth(tile)[b * kLanes + i] = v;
             }
         }
-        film.addPass(tile, values);
+        film.addPass(tile, film.tilePasses(tile), values);
     }
     return film;
 }
@@ -165,7 +165,7 @@ TEST_CASE("resolve: at edges the radiance is encoded, and multiplied with covera
         }
     }
     film.beginPass();
-    film.addPass(0, values);
+    film.addPass(0, film.tilePasses(0), values);
 
     std::vector<uint8_t> bytes(4 * 256);
     ToneMap toneMap;
@@ -228,7 +228,7 @@ TEST_CASE("resolve: the error channel is half the difference of the halves", "[f
         tile[1].g[2] = value; // pixel (6, 0) is outside, (2, 0) is not
         tile[0].g[2] = value;
         film.beginPass();
-        film.addPass(0, tile);
+        film.addPass(0, film.tilePasses(0), tile);
     }
     std::vector<float> error(3 * 5 * 3 + 1, -1.0f);
     resolveTileError(film, 0, false, error.data());

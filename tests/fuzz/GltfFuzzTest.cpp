@@ -4,7 +4,7 @@
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
 #include "tests/Catch.h"
-#include "tests/plugins/GltfFiles.h"
+#include "tests/plugins/GltfCompression.h"
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/FrameStamp>
@@ -87,6 +87,62 @@ Json anyModel(Dice& dice)
     model["images"] =
         Json::parse(R"([{ "uri": "data:image/png;base64,iVBORw0KGgoAAAANSUhEUg==" }])");
     return model;
+}
+
+#if defined(OSGRAYTRACE_TEST_DRACO) || defined(OSGRAYTRACE_TEST_MESHOPT) ||                        \
+    defined(OSGRAYTRACE_TEST_WEBP)
+/// Damages compressed bytes, which a damaged base64 would hide, now and then.
+std::string worn(std::string bytes, Dice& dice)
+{
+    for (int i = dice.oneIn(2) ? 1 + dice.below(3) : 0; i > 0 && !bytes.empty(); --i)
+        damageBytes(bytes, dice.below(kDamages), dice);
+    return bytes;
+}
+#endif
+
+/// Returns a model whose mesh, or whose image, is compressed; a plain one if no library is there.
+Json anyCompressedModel(Dice& dice)
+{
+    const Grid grid = gridOf(1 + dice.below(6));
+    Json model = plainModel(grid);
+    switch (dice.below(3))
+    {
+#ifdef OSGRAYTRACE_TEST_DRACO
+    case 0:
+        return dracoModel(grid, worn(dracoBytes(grid, 4 + dice.below(10), dice.oneIn(2)), dice));
+#endif
+#ifdef OSGRAYTRACE_TEST_MESHOPT
+    case 1:
+    {
+        const char* const kModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+        const char* const kFilters[] = {"", "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+        model = meshoptModel(grid, dice.oneIn(2));
+        const std::string bytes =
+            worn(meshoptVertices(grid.positions.data(), grid.count(), 12), dice);
+        const int view =
+            addMeshoptView(model, bytes, grid.count(), dice.oneIn(3) ? 8 : 12,
+                           dice.oneIn(3) ? dice.oneOf(kModes) : kModes[0], dice.oneOf(kFilters));
+        model["accessors"][attributesOf(model)["POSITION"].get<std::size_t>()]["bufferView"] = view;
+        return model;
+    }
+#endif
+#ifdef OSGRAYTRACE_TEST_WEBP
+    case 2:
+    {
+        const std::string bytes =
+            worn(webpBytes(std::vector<unsigned char>(4 * 9 * 9, 200), 9, 9), dice);
+        model["textures"] =
+            Json::parse(R"([{ "extensions": { "EXT_texture_webp": { "source": 0 } } }])");
+        model["images"] = {{{"uri", "data:;base64," + base64(bytes)}}};
+        model["materials"] =
+            Json::parse(R"([{ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }])");
+        model["meshes"][0]["primitives"][0]["material"] = 0;
+        return model;
+    }
+#endif
+    default:
+        return model;
+    }
 }
 
 /// Returns some value of a tree, by a random walk.
@@ -174,7 +230,7 @@ std::string anyFile(const std::vector<std::string>& samples, Dice& dice)
             damageBytes(file, dice.below(kDamages), dice);
         return file;
     }
-    Json model = anyModel(dice);
+    Json model = dice.oneIn(4) ? anyCompressedModel(dice) : anyModel(dice);
     for (int i = dice.below(4); i > 0; --i)
         damageTree(model, dice);
     std::string file = dice.oneIn(2) ? glbOf(model) : model.dump();

@@ -63,14 +63,6 @@ struct CountingHook : MaterialHook
     const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
 };
 
-void addProgram(osg::Node& node)
-{
-    osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
-                                       "void main() { gl_FragColor = vec4(0.9, 0.1, 0.9, 1.0); }"));
-    node.getOrCreateStateSet()->setAttributeAndModes(program.get());
-}
-
 } // namespace
 
 TEST_CASE("cull content: drawables that only a cull traversal finds", "[gl][cull]")

@@ -6,6 +6,8 @@
 #include "TestViewer.h"
 #include "tests/Catch.h"
 
+#include <osg/Program>
+
 #include <functional>
 #include <string>
 
@@ -43,11 +45,11 @@ struct View
     TestViewer viewer;
 };
 
-/// Checks that the view shows what OSG alone shows, where the content is seen.
-inline void checkPicture(View& view, const Setup& setup = {})
+/// Checks that the view shows after so many frames what OSG alone shows, where the content is seen.
+inline void checkPicture(View& view, const Setup& setup = {}, int frames = 2)
 {
     View bare(nullptr, setup);
-    const osg::ref_ptr<osg::Image> traced = view.viewer.frames(2);
+    const osg::ref_ptr<osg::Image> traced = view.viewer.frames(frames);
     view.scene->setEnabled(false);
     const osg::ref_ptr<osg::Image> wanted = view.viewer.frames(2);
     view.scene->setEnabled(true);
@@ -70,6 +72,14 @@ inline osg::ref_ptr<osg::Geometry> plainSquare(float half)
     osg::ref_ptr<osg::Geometry> square = unlitSquare(half, osg::Vec4(1, 1, 1, 1));
     square->setStateSet(nullptr);
     return square;
+}
+
+inline void addProgram(osg::Node& node)
+{
+    const osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+                                       "void main() { gl_FragColor = vec4(0.9, 0.1, 0.9, 1.0); }"));
+    node.getOrCreateStateSet()->setAttributeAndModes(program.get());
 }
 
 } // namespace osgRayTrace::test

@@ -26,7 +26,7 @@ std::shared_ptr<Mesh> smoothBall(Vec3 centre, float radius)
 
 /// Returns a room with every kind of hit point: diffuse, coated, glossy, mirror, clear and rough
 /// glass, and light of all kinds.
-SceneBuilder room(float ballX)
+SceneBuilder room(float ballX, const Material& ball = glass(1.5f))
 {
     SceneBuilder builder;
     Material coated = lambert(Vec3(0.6f, 0.5f, 0.4f));
@@ -37,7 +37,7 @@ SceneBuilder room(float ballX)
     builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), coated);
     builder.add(quadMesh({-1, 1, 0}, {2, 0, 0}, {0, 0, 2}), lambert(Vec3(0.6f, 0.3f, 0.3f)));
     builder.add(quadMesh({-1, 1, 0}, {0, -2, 0}, {0, 0, 2}), glossy);
-    builder.add(sphereMesh({ballX, 0.1f, 0.4f}, 0.3f, 16), glass(1.5f));
+    builder.add(sphereMesh({ballX, 0.1f, 0.4f}, 0.3f, 16), ball);
     builder.add(sphereMesh({0.6f, -0.2f, 0.3f}, 0.25f, 16), glass(1.5f, 0.6f));
     builder.add(boxMesh({-0.8f, -0.5f, 0.0f}, {-0.5f, -0.2f, 0.3f}), mirror(Vec3(0.9f)));
     builder.add(smoothBall({-0.1f, -0.6f, 0.3f}, 0.25f), lambert(Vec3(0.5f)));
@@ -137,10 +137,13 @@ TEST_CASE("photon passes: PPM antialiases, and its camera paths fill the pixels 
 
 TEST_CASE("photon passes: kept hit points gather what paths do", "[photons]")
 {
-    // In the first pass both integrators follow the same paths: SPPM keeps nothing.
-    const auto traced = room(-0.1f).build();
+    // In the first pass both integrators follow the same paths: SPPM keeps nothing. With the global
+    // schedule SPPM goes both ways at clear glass, and PPM does not.
     for (const RadiusSchedule schedule : {RadiusSchedule::Global, RadiusSchedule::Local})
     {
+        const Material ball =
+            schedule == RadiusSchedule::Local ? glass(1.5f) : mirror(Vec3(0.8f, 0.9f, 0.9f));
+        const auto traced = room(-0.1f, ball).build();
         RenderOptions options = photonOptions(IntegratorKind::Ppm);
         options.radiusSchedule = schedule;
         const Picture kept = render(traced, viewFrom(0.5), options, 1);

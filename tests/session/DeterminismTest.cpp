@@ -94,7 +94,7 @@ TEST_CASE("determinism: equal images for any order of tiles", "[session]")
                 TileResult result;
                 result.rgba = rgba;
                 integrator->renderTile(context, film.tileX(tile), film.tileY(tile), result);
-                film.addPass(tile, result.rgba);
+                film.addPass(tile, film.tilePasses(tile), result.rgba);
             }
         }
         std::vector<float> image(expected.rgba.size());

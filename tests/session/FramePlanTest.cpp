@@ -321,3 +321,23 @@ TEST_CASE("frame plan: full resolution may take the time that upsampling would",
     CHECK(frames > HeldDivider::kPatience);
     CHECK(frames < 4 * HeldDivider::kPatience);
 }
+
+TEST_CASE("frame plan: without time left the image is the coarsest, never of full resolution",
+          "[session]")
+{
+    for (const double left : {0.0, -1e-6, -0.005, -0.1})
+    {
+        FrameSituation frame;
+        frame.width = 1280;
+        frame.height = 720;
+        frame.moved = true;
+        frame.fullSeconds = 0.02;
+        const int tiles = tilesOf(frame.width, frame.height);
+        FramePlanner planner;
+        planner.recordTiles(1, tiles, 0.095);
+        frame.seconds = left;
+        CAPTURE(left);
+        CHECK(planner.replan(frame).divider == FramePlanner::kLargestDivider);
+        CHECK(planner.plan(frame).divider == FramePlanner::kLargestDivider);
+    }
+}

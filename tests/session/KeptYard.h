@@ -57,6 +57,16 @@ inline View yardView()
     return perspectiveView({0, -30, 14}, {0, 0, 1}, {0, 0, 1}, 40.0, kWidth, kHeight);
 }
 
+/// Returns options with which each sample of the even sky has noise of its own, so that kept
+/// samples can be told from new ones: importance sampling would leave that sky to the rays that
+/// surfaces send on, and have the same light for all of them.
+inline RenderOptions noisyOptions(unsigned seed)
+{
+    RenderOptions options = optionsOf(IntegratorKind::Path, 8, seed);
+    options.environmentSampling = EnvironmentSampling::Uniform;
+    return options;
+}
+
 /// Traces frames of one pass each.
 struct Watcher
 {
@@ -66,7 +76,7 @@ struct Watcher
         inputs.scene = std::move(scene);
         inputs.workers = std::make_shared<Workers>(threads);
         inputs.photons = std::make_shared<PhotonPasses>();
-        inputs.options = optionsOf(IntegratorKind::Path, 8, seed);
+        inputs.options = noisyOptions(seed);
         inputs.maxPasses = 1 << 20;
         inputs.keepsUnchanged = keeps;
     }
@@ -98,7 +108,7 @@ inline std::vector<float> fresh(const std::shared_ptr<const Scene>& scene, uint3
     RenderSession session(std::make_shared<Workers>(1));
     session.setScene(traced(scene));
     session.setView(view);
-    session.setOptions(optionsOf(IntegratorKind::Path));
+    session.setOptions(noisyOptions(0));
     session.setSequence(sequence);
     StopRule rule;
     rule.passes = passes;

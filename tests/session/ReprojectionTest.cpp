@@ -4,7 +4,7 @@
 
 #include "osgRayTrace/base/Parallel.h"
 #include "tests/Catch.h"
-#include "tests/EngineScenes.h"
+#include "tests/session/PlaneSights.h"
 
 #include <cmath>
 #include <cstring>
@@ -14,153 +14,6 @@
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
-
-namespace
-{
-
-/// Describes a part of a plane, relative to the point of the world that a test chooses.
-struct Plane
-{
-    Vec3d point, normal;
-    uint32_t object = 1;
-    std::function<bool(Vec3d)> inside = [](Vec3d) { return true; };
-    float lobe = kInfinity;
-};
-
-struct Seen
-{
-    Vec3d point{0.0};
-    uint32_t object = 0;
-};
-
-/// Holds the surfaces that the pixels of a view see, computed in double.
-struct Sight
-{
-    View view;
-    std::vector<SurfaceSample> samples;
-    std::vector<Seen> seen;
-};
-
-Sight look(const View& view, const std::vector<Plane>& planes, Vec3d origin = Vec3d(0.0))
-{
-    Sight sight{view, {}, {}};
-    const Mat4d worldFromClip = glm::inverse(view.clipFromView * view.viewFromWorld);
-    const Vec4d pole4 = worldFromClip * Vec4d(0.0, 0.0, 1.0, 0.0);
-    const bool orthographic = std::abs(pole4.w) < 1e-12 * glm::length(Vec3d(pole4));
-    for (int y = 0; y < view.height; ++y)
-        for (int x = 0; x < view.width; ++x)
-        {
-            const Vec4d near4 =
-                worldFromClip * Vec4d(2.0 * (x + 0.5) / view.width - 1.0,
-                                      2.0 * (y + 0.5) / view.height - 1.0, -1.0, 1.0);
-            const Vec3d near = Vec3d(near4) / near4.w;
-            const Vec3d start = orthographic ? near : Vec3d(pole4) / pole4.w;
-            const Vec3d along = orthographic ? glm::normalize(Vec3d(pole4) / near4.w)
-                                             : glm::normalize(near - start);
-            SurfaceSample sample{Vec3(0.0f), kInfinity, Vec3(0.0f), 0, kInfinity};
-            Seen seen;
-            for (const Plane& plane : planes)
-            {
-                const double t = glm::dot(plane.normal, origin + plane.point - start) /
-                                 glm::dot(plane.normal, along);
-                const Vec3d point = start + t * along - origin;
-                if (!(t > 0.0) || !(t < sample.distance) || !plane.inside(point)) continue;
-                const double side = glm::dot(plane.normal, along) < 0.0 ? 1.0 : -1.0;
-                sample = {Vec3(side * plane.normal), static_cast<float>(t), Vec3(0.5f),
-                          plane.object, plane.lobe};
-                seen = {point, plane.object};
-            }
-            sight.samples.push_back(sample);
-            sight.seen.push_back(seen);
-        }
-    return sight;
-}
-
-using Texture3 = std::function<Vec3(const Seen&)>;
-
-SampledImage imageOf(const Sight& sight, const Texture3& texture, float count)
-{
-    SampledImage image{sight.view.width, sight.view.height, {}, {}};
-    for (const Seen& seen : sight.seen)
-    {
-        const Vec3 c = texture(seen);
-        image.radiance.insert(image.radiance.end(), {c.x, c.y, c.z, 1.0f});
-        image.count.push_back(count);
-    }
-    return image;
-}
-
-SurfaceMap mapOf(const Sight& sight)
-{
-    SurfaceMap map;
-    REQUIRE(beginSurfaceMap(sight.view, map));
-    const CameraRays& rays = map.rays.rays;
-    for (std::size_t i = 0; i < sight.samples.size(); ++i)
-    {
-        const auto width = static_cast<std::size_t>(sight.view.width);
-        const float x = static_cast<float>(i % width) + 0.5f;
-        const float y = static_cast<float>(i / width) + 0.5f;
-        const SurfaceSample& sample = sight.samples[i];
-        map.normalX[i] = sample.normal.x;
-        map.normalY[i] = sample.normal.y;
-        map.normalZ[i] = sample.normal.z;
-        map.along[i] = sample.distance /
-                       glm::length(rays.direction + x * rays.directionDx + y * rays.directionDy);
-        map.lobe[i] = sample.lobe;
-        map.object[i] = sample.object;
-    }
-    findSmooth(Workers(1), map);
-    findInteriors(Workers(1), map);
-    return map;
-}
-
-SampledImage carry(const SampledImage& image, const Sight& from, const Sight& to, int threads = 1,
-                   const ReprojectionLimits& limits = {})
-{
-    SampledImage result;
-    reproject(image, mapOf(from), mapOf(to), limits, Workers(threads), result);
-    return result;
-}
-
-View offAxisView(Vec3d eye, Vec3d centre, int width, int height)
-{
-    View view;
-    view.viewFromWorld = glm::lookAt(eye, centre, Vec3d(0, 1, 0));
-    view.clipFromView = glm::frustum(-0.1, 0.7, -0.5, 0.2, 1.0, 500.0);
-    view.width = width;
-    view.height = height;
-    return view;
-}
-
-View orthographicView(Vec3d eye, Vec3d centre, int width, int height)
-{
-    View view;
-    view.viewFromWorld = glm::lookAt(eye, centre, Vec3d(0, 1, 0));
-    view.clipFromView = glm::ortho(-3.0, 3.0, -2.0, 2.0, 0.1, 100.0);
-    view.width = width;
-    view.height = height;
-    return view;
-}
-
-View infiniteView(Vec3d eye, Vec3d centre, int width, int height)
-{
-    View view = offAxisView(eye, centre, width, height);
-    view.clipFromView = glm::infinitePerspective(0.8, double(width) / height, 0.01);
-    return view;
-}
-
-/// Returns waves of about twelve pixels.
-Vec3 waves(const Seen& seen)
-{
-    if (seen.object == 0) return Vec3(0.0f);
-    const auto wave = [](double v) { return static_cast<float>(1.0 + 0.5 * std::sin(v)); };
-    return Vec3(wave(7.0 * seen.point.x), wave(7.0 * seen.point.y),
-                wave(5.0 * (seen.point.x + seen.point.y)));
-}
-
-const Plane kWall{{0, 0, 0}, {0, 0, 1}};
-
-} // namespace
 
 TEST_CASE(
     "reprojection: what is on a plane lands where it is in any view, to a fraction of a pixel",
@@ -239,7 +92,7 @@ TEST_CASE("reprojection: what a bar hid has no history, and none of the bar's", 
 {
     for (const uint32_t barObject : {1u, 2u}) // 1 is the wall's own object
     {
-        const Plane bar{
+        const PlanePart bar{
             {0, 0, 1.5}, {0, 0, 1}, barObject, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
         const auto sight = [&](double x) {
             return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90),
@@ -291,7 +144,7 @@ TEST_CASE("reprojection: pixels that border on other surfaces give nothing to th
           "[session]")
 {
     // The pixels beside the bar are mixtures of both surfaces, as in renders.
-    const Plane bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
+    const PlanePart bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
     const auto sight = [&](double x) {
         return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 160, 90), {kWall, bar});
     };
@@ -347,13 +200,13 @@ TEST_CASE(
     CHECK(shareOf(other) == 0.0);
 
     // A pixel is 2 tan(20 degrees) 6 / 48 = 0.09 wide at the wall.
-    CHECK(shareOf(look(after, {Plane{{0, 0, 0.5}, {0, 0, 1}}})) == 0.0);
-    CHECK(shareOf(look(after, {Plane{{0, 0, -0.5}, {0, 0, 1}}})) == 0.0);
-    CHECK(shareOf(look(after, {Plane{{0, 0, 0.05}, {0, 0, 1}}})) > 0.95);
+    CHECK(shareOf(look(after, {PlanePart{{0, 0, 0.5}, {0, 0, 1}}})) == 0.0);
+    CHECK(shareOf(look(after, {PlanePart{{0, 0, -0.5}, {0, 0, 1}}})) == 0.0);
+    CHECK(shareOf(look(after, {PlanePart{{0, 0, 0.05}, {0, 0, 1}}})) > 0.95);
 
     // The view is cut to another side or to another place.
     CHECK(shareOf(look(perspectiveView({0, 0, -6}, {0, 0, -20}, {0, 1, 0}, 40.0, 64, 48),
-                       {Plane{{0, 0, -12}, {0, 0, 1}}})) == 0.0);
+                       {PlanePart{{0, 0, -12}, {0, 0, 1}}})) == 0.0);
     CHECK(shareOf(look(perspectiveView({50, 0, 6}, {50, 0, 0}, {0, 1, 0}, 40.0, 64, 48),
                        {kWall})) == 0.0);
 }
@@ -364,7 +217,7 @@ TEST_CASE("reprojection: mirrors keep what was seen from the same place alone, g
 {
     const auto sight = [](Vec3d eye, float turn, float lobe)
     {
-        Plane wall = kWall;
+        PlanePart wall = kWall;
         wall.lobe = lobe;
         return look(perspectiveView(eye, eye + Vec3d(turn, 0, -6), {0, 1, 0}, 40.0, 64, 48),
                     {wall});
@@ -441,7 +294,7 @@ TEST_CASE("reprojection: what is not finite does not spread", "[session]")
 
 TEST_CASE("reprojection: any number of threads gives the same image", "[session]")
 {
-    const Plane bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
+    const PlanePart bar{{0, 0, 1.5}, {0, 0, 1}, 2, [](Vec3d p) { return std::abs(p.x) < 0.4; }};
     const auto sight = [&](double x) {
         return look(perspectiveView({x, 0, 6}, {x, 0, 0}, {0, 1, 0}, 40.0, 133, 71), {kWall, bar});
     };

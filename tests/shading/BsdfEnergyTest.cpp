@@ -4,6 +4,7 @@
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 #include "tests/shading/BsdfKinds.h"
+#include "tests/shading/LatticeEstimate.h"
 
 #include "osgRayTrace/shading/Fresnel.h"
 
@@ -22,16 +23,13 @@ Vec3 directionOf(double cosine, double phi)
 /// Returns the share of a photon's flux that is scattered.
 Estimate albedo(const Bsdf& bsdf, Vec3 wo, int samples, uint32_t seed)
 {
-    Estimate estimate;
-    Uniform random(seed);
-    for (int i = 0; i < samples; ++i)
+    const auto weight = [&](float uLobe, float u, float v)
     {
-        const float uLobe = random(), u = random(), v = random();
         const std::optional<BsdfSample> sample =
             sampleBsdf(bsdf, wo, uLobe, u, v, Transport::Importance);
-        estimate.add(sample ? sample->weight.y : 0.0);
-    }
-    return estimate;
+        return sample ? double(sample->weight.y) : 0.0;
+    };
+    return latticeEstimate(samples, seed, weight);
 }
 
 Bsdf perfectMetal(float alpha)
@@ -72,7 +70,7 @@ TEST_CASE("bsdf: single-scattering GGX keeps what the white furnace table says",
     for (const auto& row : table)
     {
         CAPTURE(row.alpha);
-        CHECK(albedo(perfectMetal(row.alpha), Vec3(0, 0, 1), 400000, 1)
+        CHECK(albedo(perfectMetal(row.alpha), Vec3(0, 0, 1), 96000, 1)
                   .agrees(row.albedo, row.rounding + 1e-6));
     }
 }
@@ -89,7 +87,7 @@ TEST_CASE("bsdf: no surface makes energy, from any angle", "[shading][statistics
         for (const double cosine : {1.0, 0.8, 0.5, 0.2, 0.05, 0.01, 0.00175})
         {
             CAPTURE(kind.name, cosine);
-            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 40000, 2);
+            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 12800, 2);
             const double limit = kind.bsdf.isSmooth() ? 1.0002 : 1.001;
             CHECK(share.mean() < limit + 4.0 * share.standardError());
         }
@@ -109,7 +107,7 @@ TEST_CASE("bsdf: a white base takes what its rough coat leaves, no more",
             {
                 for (const double cosine : {1.0, 0.75, 0.3, 0.1, 0.02, 0.003})
                 {
-                    const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 200000, 6);
+                    const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 48000, 6);
                     const double spread = 4.0 * share.standardError();
                     CAPTURE(kind.name, ior, cosine, share.mean(), spread);
                     CHECK(share.mean() < 1.001 + spread);
@@ -129,7 +127,7 @@ TEST_CASE("bsdf: smooth surfaces and Lambert's keep all energy", "[shading][stat
         for (const double cosine : {1.0, 0.5, 0.1})
         {
             CAPTURE(kind.name, cosine);
-            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 100000, 3);
+            const Estimate share = albedo(kind.bsdf, directionOf(cosine, 0.4), 32000, 3);
             // Under a smooth coat this holds on average over angles of the light, and exactly for
             // light from all sides. The quadrature of the coat's mean reflectance is good to 1e-4.
             CHECK(share.agrees(1.0, 2e-4));

@@ -4,6 +4,7 @@
 #include "tests/Statistics.h"
 #include "tests/shading/BsdfDensity.h"
 #include "tests/shading/BsdfKinds.h"
+#include "tests/shading/LatticeEstimate.h"
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/shading/Fresnel.h"
@@ -66,18 +67,15 @@ std::vector<BsdfKind> tiltedKinds()
 /// Returns the share of light that is scattered to the eye in an even white room.
 Estimate albedoOf(const Bsdf& bsdf, Vec3 wo, int samples, uint32_t seed)
 {
-    Estimate estimate;
-    Uniform random(seed);
-    for (int i = 0; i < samples; ++i)
+    const auto weight = [&](float uLobe, float u, float v)
     {
-        const float uLobe = random(), u = random(), v = random();
         const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, uLobe, u, v);
         // Radiance is larger in the denser body by the square of the index.
         const float eta = bsdf.transmittedEta();
         const float scale = sample && sample->transmitted ? eta * eta : 1.0f;
-        estimate.add(sample ? sample->weight.y * scale : 0.0);
-    }
-    return estimate;
+        return sample ? double(sample->weight.y * scale) : 0.0;
+    };
+    return latticeEstimate(samples, seed, weight);
 }
 
 } // namespace
@@ -114,7 +112,7 @@ TEST_CASE("coat normal: no surface makes energy, and a white base gets what the 
         for (const double cosine : {1.0, 0.7, 0.3, 0.1, 0.02})
             for (const double azimuth : {0.3, 3.4})
             {
-                const Estimate share = albedoOf(kind.bsdf, directionOf(cosine, azimuth), 20000, 2);
+                const Estimate share = albedoOf(kind.bsdf, directionOf(cosine, azimuth), 6400, 2);
                 CAPTURE(kind.name, cosine, azimuth, share.mean(), share.standardError());
                 CHECK(share.mean() < 1.002 + 4.0 * share.standardError());
             }
@@ -130,7 +128,7 @@ TEST_CASE("coat normal: no surface makes energy, and a white base gets what the 
         const Bsdf bsdf = tilted(kindsOf("", white).front(), degrees, 0.0).bsdf;
         for (const double cosine : {1.0, 0.8, 0.6})
         {
-            const Estimate share = albedoOf(bsdf, directionOf(cosine, M_PI), 100000, 3);
+            const Estimate share = albedoOf(bsdf, directionOf(cosine, M_PI), 32000, 3);
             CAPTURE(degrees, cosine, share.mean());
             const Vec3 wo = directionOf(cosine, M_PI), n = bsdf.coatNormal;
             const bool lost = 2.0f * glm::dot(wo, n) * n.z - wo.z <= 0.0f;

@@ -46,40 +46,68 @@ TEST_CASE("environment map: samples are distributed as their density says",
     const std::shared_ptr<EnvironmentImage> images[] = {
         speckled(32, 16, 1), speckled(37, 19, 2), speckled(1, 8, 3),
         speckled(40, 1, 4),  sunnySky(32, 16),    newEnvironment(1, 1, Vec3(2.0f))};
-    const double threshold = sidak(0.001, int(std::size(images)));
+    const double threshold = sidak(0.001, 2 * int(std::size(images)));
     for (const auto& image : images)
+        for (const EnvironmentDensity density :
+             {EnvironmentDensity::Luminance, EnvironmentDensity::Compensated})
+        {
+            const EnvironmentMap map(image);
+            const bool compensated = density == EnvironmentDensity::Compensated;
+            if (compensated && map.isEven()) continue;
+            // A pixel has a share by what it exceeds: nothing, or the mean over the sphere.
+            const double floor = compensated ? map.luminanceIntegral() / kFourPi : 0.0;
+            std::vector<double> observed(image->radiance.size()), expected(image->radiance.size());
+            Uniform uniform(7);
+            int elsewhere = 0;
+            for (int k = 0; k < kSamples; ++k)
+            {
+                const EnvironmentSample sample = map.sample(uniform(), uniform(), density);
+                REQUIRE(std::fabs(glm::length(sample.direction) - 1.0f) < 1e-6f);
+                REQUIRE(sample.pdfW > 0.0f);
+                ++observed[pixelIndex(*image, sample.direction)];
+                // Rounding may put a direction beyond the border of its pixel.
+                elsewhere += map.radiance(sample.direction) != sample.radiance;
+                elsewhere += map.pdfW(sample.direction, density) != sample.pdfW;
+            }
+            double whole = 0.0, above = 0.0, strays = 0.0;
+            for (int y = 0; y < image->height; ++y)
+                for (int x = 0; x < image->width; ++x)
+                {
+                    const Vec3 middle(map.direction(x + 0.5, y + 0.5));
+                    const double probability = map.pdfW(middle, density) * map.solidAngle(y);
+                    const auto i = static_cast<std::size_t>(y * image->width + x);
+                    const double excess = luminance(image->radiance[i]) - floor;
+                    CHECK((probability > 0.0) == (excess > 0.0));
+                    if (probability == 0.0) strays += observed[i];
+                    whole += probability;
+                    above += std::max(0.0, excess) * map.solidAngle(y);
+                    expected[i] = std::max(0.0, excess) * map.solidAngle(y) * kSamples;
+                }
+            for (double& count : expected)
+                count /= above;
+            CAPTURE(image->width, image->height, compensated);
+            CHECK(std::fabs(whole - 1.0) < 1e-5);
+            CHECK(elsewhere < kSamples / 10000);
+            CHECK(strays < kSamples / 10000);
+            CHECK(chiSquareTest(observed, expected) > threshold);
+        }
+}
+
+TEST_CASE("environment map: an even sky is left to rays that find it by chance", "[shading]")
+{
+    Uniform uniform(11);
+    const auto nearlyEven = newEnvironment(64, 32, Vec3(0.7f));
+    for (Vec3& pixel : nearlyEven->radiance)
+        pixel *= 1.0f + 1e-6f * uniform();
+    for (const auto& image : {newEnvironment(64, 32, Vec3(0.7f)), nearlyEven})
     {
         const EnvironmentMap map(image);
-        std::vector<double> observed(image->radiance.size()), expected(image->radiance.size());
-        Uniform uniform(7);
-        int elsewhere = 0;
-        for (int k = 0; k < kSamples; ++k)
-        {
-            const EnvironmentSample sample = map.sample(uniform(), uniform());
-            REQUIRE(std::fabs(glm::length(sample.direction) - 1.0f) < 1e-6f);
-            REQUIRE(sample.pdfW > 0.0f);
-            ++observed[pixelIndex(*image, sample.direction)];
-            // Rounding may put a direction beyond the border of its pixel.
-            elsewhere += map.radiance(sample.direction) != sample.radiance;
-            elsewhere += map.pdfW(sample.direction) != sample.pdfW;
-        }
-        double whole = 0.0;
-        for (int y = 0; y < image->height; ++y)
-            for (int x = 0; x < image->width; ++x)
-            {
-                const Vec3 middle(map.direction(x + 0.5, y + 0.5));
-                const double probability = map.pdfW(middle) * map.solidAngle(y);
-                const auto i = static_cast<std::size_t>(y * image->width + x);
-                CHECK((probability > 0.0) == (luminance(image->radiance[i]) > 0.0f));
-                if (probability == 0.0) CHECK(observed[i] == 0.0);
-                whole += probability;
-                expected[i] = probability * kSamples;
-            }
-        CAPTURE(image->width, image->height);
-        CHECK(std::fabs(whole - 1.0) < 1e-5);
-        CHECK(elsewhere < kSamples / 10000);
-        CHECK(chiSquareTest(observed, expected) > threshold);
+        CHECK(map.isEven());
+        CHECK(map.sample(0.3f, 0.6f, EnvironmentDensity::Compensated).pdfW == 0.0f);
+        CHECK(map.pdfW(Vec3(0, 0, 1), EnvironmentDensity::Compensated) == 0.0f);
+        CHECK(map.sample(0.3f, 0.6f).pdfW * kFourPi == Approx(1.0).epsilon(1e-5));
     }
+    CHECK_FALSE(EnvironmentMap(sunnySky(32, 16)).isEven());
 }
 
 TEST_CASE("environment map: within a pixel directions are uniform in solid angle",

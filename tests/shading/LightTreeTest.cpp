@@ -70,6 +70,7 @@ SceneBuilder mixedScene()
             light.spotExponent = i % 8 == 1 ? 20.0f : 0.0f;
         }
         if (i % 4 == 2) light.radius = 0.3f;
+        if (i % 3 == 0) light.range = 7.0f;
         if (i % 4 == 3)
         {
             light.attenuationConstant = 1.0f;

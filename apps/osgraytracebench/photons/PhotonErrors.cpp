@@ -14,7 +14,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -26,7 +25,6 @@ using namespace engine;
 namespace
 {
 
-constexpr int kReferenceSeeds = 8;
 constexpr int kEdges = 100; ///< most edges of a path, as in measurements of other renderers
 
 std::vector<Method> methods()
@@ -71,30 +69,6 @@ Reference storedReference(const std::string& file, int width, int height)
     return reference;
 }
 
-/// Renders a reference in a folder of its own that is removed: nothing is taken over from an older
-/// version of the program.
-Reference newReference(const ReportScene& scene, const PreparedScene& prepared, double seconds)
-{
-    const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() / ("osgraytracebench-" + scene.name);
-    std::filesystem::remove_all(folder);
-    ReferencePlan plan;
-    plan.seeds = kReferenceSeeds;
-    plan.seconds = seconds / kReferenceSeeds;
-    const Reference reference = renderedReference(scene, prepared, plan, folder.string());
-    std::filesystem::remove_all(folder);
-    return reference;
-}
-
-/// Returns the part of relMSE that a reference's own noise adds.
-double noiseOf(const Reference& reference)
-{
-    double noise = 0.0;
-    for (std::size_t i = 0; i < reference.mean.size(); ++i)
-        noise += reference.variance[i] / (reference.mean[i] * reference.mean[i] + 0.01);
-    return noise / static_cast<double>(reference.mean.size());
-}
-
 void measureScene(char letter, CornellKind kind, const std::string& file,
                   const PhotonsOptions& options, Rows& rows)
 {
@@ -107,7 +81,7 @@ void measureScene(char letter, CornellKind kind, const std::string& file,
     const std::string stem = std::string("error ") + letter + " ";
     if (file.empty())
         rows.push_back(
-            {stem + "reference: its noise, taken off below", noiseOf(reference), "relMSE"});
+            {stem + "reference: its noise, taken off below", noiseOf(reference, 0.1), "relMSE"});
     BudgetPlan plan = timedPlan(options.longest);
     plan.seeds.assign(plan.seeds.size(), options.seeds);
     for (const Method& method : methods())

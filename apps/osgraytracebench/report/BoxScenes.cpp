@@ -15,7 +15,8 @@ namespace
 constexpr double kFovyDegrees = 29.148431; ///< osgviewer's default
 constexpr double kAspect = 4.0 / 3.0;
 
-/// Sets the scene's view to the one that the graph stores.
+} // namespace
+
 void useStoredView(ReportScene& scene)
 {
     const app::Placement place = *app::storedPlacement(*scene.graph);
@@ -26,8 +27,6 @@ void useStoredView(ReportScene& scene)
     scene.projection =
         osg::Matrixd::perspective(place.fovyDegrees, scene.aspect, 1e-3 * farthest, farthest);
 }
-
-} // namespace
 
 ReportScene cornellScene(CornellKind kind)
 {

@@ -7,6 +7,9 @@
 namespace osgRayTrace::bench
 {
 
+/// Sets the scene's view to the one that its graph stores.
+void useStoredView(ReportScene& scene);
+
 enum class CornellKind
 {
     Diffuse,

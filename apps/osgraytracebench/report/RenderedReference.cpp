@@ -135,4 +135,26 @@ Reference renderedReference(const ReportScene& scene, const PreparedScene& prepa
     return reference;
 }
 
+Reference newReference(const ReportScene& scene, const PreparedScene& prepared, double seconds)
+{
+    // The folder is its own, and removed: nothing is found in it.
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("osgraytracebench-" + scene.name);
+    std::filesystem::remove_all(folder);
+    ReferencePlan plan;
+    plan.seeds = 8;
+    plan.seconds = seconds / plan.seeds;
+    const Reference reference = renderedReference(scene, prepared, plan, folder.string());
+    std::filesystem::remove_all(folder);
+    return reference;
+}
+
+double noiseOf(const Reference& reference, double floor)
+{
+    double noise = 0.0;
+    for (std::size_t i = 0; i < reference.mean.size(); ++i)
+        noise += reference.variance[i] / (reference.mean[i] * reference.mean[i] + floor * floor);
+    return noise / static_cast<double>(reference.mean.size());
+}
+
 } // namespace osgRayTrace::bench

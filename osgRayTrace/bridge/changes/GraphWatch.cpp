@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/Prefetch.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
-#include "osgRayTrace/bridge/common/MemoryHash.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 

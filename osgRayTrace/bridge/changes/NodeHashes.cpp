@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/changes/NodeHashes.h"
 
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
-#include "osgRayTrace/bridge/common/MemoryHash.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
 

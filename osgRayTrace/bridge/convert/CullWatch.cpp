@@ -5,9 +5,12 @@
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
+#include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/UntracedParts.h"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -38,6 +41,15 @@ uint64_t attributesHash(const osg::Drawable& drawable)
                       if (data && !shape) hasher.add(bufferHash(bufferKindOf(*data), *data));
                   });
     return hasher.value();
+}
+
+/// Returns whether a drawable can be traced or have a proxy, in some state. Particles, texts and
+/// the like cannot.
+bool canBeInScene(const osg::Drawable& drawable)
+{
+    if (drawable.asGeometry()) return true;
+    const char* reason = untracedDrawable(drawable);
+    return !reason || std::strcmp(reason, "not-traced.custom-drawable") == 0;
 }
 
 /// Returns the part of the scene that each leaf has become, by its number.
@@ -83,6 +95,26 @@ bool CullWatch::sameStates(const CulledLeaf& before, const WatchedLeaf& values,
     return true;
 }
 
+/// Returns a hash of the values that decide, beside the drawables, places and state sets of the
+/// record, on what becomes of a subtree: those of its drawables that can be in the scene, of its
+/// state, and of the state and the hints above it.
+uint64_t CullWatch::contentOf(const CullOutcome& outcome) const
+{
+    Hasher hasher;
+    for (const osg::Node* node : outcome.path)
+    {
+        hasher.add(ownHint(*node));
+        if (node->getStateSet()) hasher.add(hashOf(*node->getStateSet()));
+    }
+    for (const osg::ref_ptr<const osg::StateSet>& stateSet : outcome.record.stateSets())
+        hasher.add(hashOf(*stateSet));
+    for (const osg::ref_ptr<osg::Drawable>& drawable : outcome.record.drawables())
+        if (canBeInScene(*drawable))
+            hasher.add(hashOf(*drawable), drawable->getDrawCallback() != nullptr,
+                       drawable->getDataVariance());
+    return hasher.value();
+}
+
 CullWatch::WatchedLeaf CullWatch::valuesOf(const CulledLeaf& leaf) const
 {
     WatchedLeaf values;
@@ -115,7 +147,13 @@ void CullWatch::record(CollectedGraph& graph, std::shared_ptr<const ShaderReads>
             if (use != uses.end()) values.use = use->second;
             watched.leaves.push_back(std::move(leaf));
         }
+        watched.captured = outcome.record.size();
+        watched.signature = outcome.record.signature();
         watched.outcome = std::move(outcome);
+        if (watched.outcome.kind == CullOutcome::Captured)
+            watched.content = contentOf(watched.outcome);
+        else
+            watched.outcome.record = CullRecord();
     }
     graph.cullOutcomes.clear();
 }
@@ -170,7 +208,7 @@ CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
     for (std::size_t count = 0; count < _watched.size(); ++count)
     {
         Watched& watched = _watched[_next];
-        const std::size_t cost = kDrawablesASubtree + watched.outcome.captured;
+        const std::size_t cost = kDrawablesASubtree + watched.captured;
         changes.complete = cost <= _credit;
         if (!changes.complete) return changes;
         changes.holds = lookAt(watched, input, caches, changes);
@@ -189,27 +227,31 @@ CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
 bool CullWatch::lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
                        CullChanges& changes)
 {
-    const CullOutcome& then = watched.outcome;
+    CullOutcome& then = watched.outcome;
     if (then.kind == CullOutcome::Left || isInPlain(then)) return true;
+    const auto sameState = [this](const osg::StateSet& before, const osg::StateSet& now)
+    { return hashOf(before) == hashOf(now) || before.compare(now, true) == 0; };
+    const bool plain = then.kind == CullOutcome::Plain;
+    CullRecord seen;
+    CullRecord& record = plain ? seen : then.record;
     ConversionReport unused;
-    if (then.kind == CullOutcome::Plain && _rounds % kRoundsByDrawables != 0)
-    {
-        GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
-                                 caches.rules, unused);
-        const std::optional<uint64_t> signature = collector.cullSignatureAt(then.path);
-        unused.setPlace({});
-        if (signature == then.signature)
-        {
-            _plainAbove = &then;
-            return true;
-        }
-    }
     GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
                              caches.rules, unused);
-    std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path, watched.outcome.answers);
+    const std::optional<bool> repeats = collector.repeatsCullAt(then.path, record, sameState);
+    unused.setPlace({});
+    if (!repeats) return false;
+    if (plain && _rounds % kRoundsByDrawables != 0 && record.signature() == watched.signature)
+    {
+        _plainAbove = &then;
+        return true;
+    }
+    const uint64_t content = plain ? 0 : contentOf(then);
+    if (*repeats && content == watched.content) return true;
+    std::optional<CullOutcome> now = collector.cullOutcomeOf(record, then.answers);
     unused.setPlace({});
     if (!now || !compare(watched, *now, input.eye.length(), changes)) return false;
-    watched.outcome.signature = now->signature;
+    watched.signature = record.signature();
+    watched.content = content;
     return true;
 }
 

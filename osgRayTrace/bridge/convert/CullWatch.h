@@ -75,11 +75,15 @@ private:
         bool drawn = false;              ///< CullOutcome::isDrawn()
         std::vector<CulledLeaf> leaves;  ///< those in the scene
         std::vector<WatchedLeaf> values; ///< of those leaves
+        std::size_t captured = 0;        ///< number of all leaves of the cull traversal
+        uint64_t signature = 0;          ///< CullRecord::signature()
+        uint64_t content = 0;            ///< hash of all values that the outcome depends on
     };
 
     bool lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
                 CullChanges& changes);
     bool isInPlain(const CullOutcome& outcome) const;
+    uint64_t contentOf(const CullOutcome& outcome) const;
     uint64_t hashOf(const osg::StateSet& stateSet) const;
     uint64_t hashOf(osg::Drawable& drawable) const;
     WatchedLeaf valuesOf(const CulledLeaf& leaf) const;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
-#include "osgRayTrace/bridge/common/MemoryHash.h"
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
 
 #include <typeinfo>

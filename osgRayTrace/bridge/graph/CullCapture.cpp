@@ -1,4 +1,4 @@
-// CullCapture.cpp - runs a cull visitor and reads its state graph. Layer: bridge.
+// CullCapture.cpp - runs a cull visitor over a node. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/CullCapture.h"
 
@@ -8,10 +8,8 @@
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
 
-#include <algorithm>
 #include <exception>
 #include <new>
-#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -75,45 +73,6 @@ void visitBelow(osg::Node& node, osgUtil::CullVisitor& visitor)
         child->accept(visitor);
     if (node.getStateSet()) visitor.popStateSet();
     visitor.popFromNodePath();
-}
-
-struct OrderedLeaf
-{
-    const osgUtil::RenderLeaf* leaf = nullptr;
-    const osgUtil::StateGraph* graph = nullptr;
-};
-
-void addLeaves(osgUtil::RenderBin& bin, std::vector<OrderedLeaf>& leaves)
-{
-    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
-        for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : graph->_leaves)
-            if (leaf->getDrawable()) leaves.push_back({leaf.get(), graph});
-    for (const auto& [number, inner] : bin.getRenderBinList())
-        addLeaves(*inner, leaves);
-}
-
-/// projection: that of the view.
-std::vector<CapturedLeaf> leavesOf(osgUtil::RenderStage& stage, const osg::Matrixd& worldFromView,
-                                   const osg::RefMatrix& projection)
-{
-    std::vector<OrderedLeaf> ordered;
-    addLeaves(stage, ordered);
-    std::stable_sort(ordered.begin(), ordered.end(),
-                     [](const OrderedLeaf& a, const OrderedLeaf& b)
-                     { return a.leaf->_traversalOrderNumber < b.leaf->_traversalOrderNumber; });
-    std::vector<CapturedLeaf> leaves;
-    for (const OrderedLeaf& entry : ordered)
-    {
-        CapturedLeaf& leaf = leaves.emplace_back();
-        leaf.drawable = const_cast<osg::Drawable*>(entry.leaf->getDrawable());
-        if (entry.leaf->_modelview) leaf.worldFromLocal = *entry.leaf->_modelview;
-        leaf.worldFromLocal.postMult(worldFromView);
-        leaf.isProjected = entry.leaf->_projection != &projection;
-        for (const osgUtil::StateGraph* graph = entry.graph; graph; graph = graph->_parent)
-            if (graph->getStateSet()) leaf.states.push_back(graph->getStateSet());
-        std::reverse(leaf.states.begin(), leaf.states.end());
-    }
-    return leaves;
 }
 
 /// Sets a cull visitor up for a traversal that culls nothing, and lets go of everything at the end.
@@ -182,23 +141,20 @@ bool isCapturing()
 }
 
 template <class Visit>
-CapturedContent CullCapture::run(const osg::NodePath& path, const osg::Matrixd& worldFromParent,
-                                 const Visit& visit) const
+bool CullCapture::run(const osg::NodePath& path, const osg::Matrixd& worldFromParent,
+                      const Visit& visit, CullRecord& record,
+                      const CullRecord::SameState& sameState) const
 {
     const Capturing capturing;
     const Setup setup(_pass, _view, _traversalMask);
     osgUtil::CullVisitor& visitor = *_pass.visitor;
-    CapturedContent content;
     try
     {
         visitor.pushModelViewMatrix(new osg::RefMatrix(worldFromParent * _view.viewFromWorld),
                                     osg::Transform::ABSOLUTE_RF);
         visitor.getNodePath().assign(path.begin(), path.end() - 1);
         visit(*path.back(), visitor);
-        content.leaves =
-            leavesOf(*setup.stage, osg::Matrixd::inverse(_view.viewFromWorld), *setup.projection);
-        content.otherStages =
-            !setup.stage->getPreRenderList().empty() || !setup.stage->getPostRenderList().empty();
+        return record.take(*setup.stage, _view.viewFromWorld, *setup.projection, sameState);
     }
     catch (const std::bad_alloc&)
     {
@@ -206,30 +162,28 @@ CapturedContent CullCapture::run(const osg::NodePath& path, const osg::Matrixd& 
     }
     catch (const std::exception& error)
     {
-        content.error = error.what();
+        record.fail(error.what());
     }
     catch (...)
     {
-        content.error = "an exception of a class that is not known";
+        record.fail("an exception of a class that is not known");
     }
-    if (content.error.empty()) return content;
-    // The exception has left the visitor in the middle of something.
-    content.leaves.clear();
-    _pass.visitor = _pass.visitor->clone();
-    return content;
+    _pass.visitor = _pass.visitor->clone(); // the exception has left it in the middle of something
+    return false;
 }
 
-CapturedContent CullCapture::node(const osg::NodePath& path,
-                                  const osg::Matrixd& worldFromParent) const
+bool CullCapture::node(const osg::NodePath& path, const osg::Matrixd& worldFromParent,
+                       CullRecord& record, const CullRecord::SameState& sameState) const
 {
-    return run(path, worldFromParent,
-               [](osg::Node& node, osgUtil::CullVisitor& visitor) { node.accept(visitor); });
+    const auto visit = [](osg::Node& node, osgUtil::CullVisitor& visitor) { node.accept(visitor); };
+    return run(path, worldFromParent, visit, record, sameState);
 }
 
-CapturedContent CullCapture::below(const osg::NodePath& path,
-                                   const osg::Matrixd& worldFromNode) const
+CullRecord CullCapture::below(const osg::NodePath& path, const osg::Matrixd& worldFromNode) const
 {
-    return run(path, worldFromNode, visitBelow);
+    CullRecord record;
+    run(path, worldFromNode, visitBelow, record, {});
+    return record;
 }
 
 } // namespace osgRayTrace::engine

@@ -1,6 +1,7 @@
 // CullCollection.cpp - collects what exists in a cull traversal only. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/Hasher.h"
+#include "osgRayTrace/bridge/graph/CullCapture.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
@@ -47,18 +48,6 @@ bool sameStateSets(const std::vector<osg::ref_ptr<const osg::StateSet>>& a,
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const auto& one, const auto& other)
                       { return one == other || one->compare(*other, true) == 0; });
-}
-
-uint64_t signatureOf(const std::vector<CapturedLeaf>& leaves)
-{
-    Hasher hasher;
-    for (const CapturedLeaf& leaf : leaves)
-    {
-        hasher.addData(leaf.drawable.get());
-        for (const osg::ref_ptr<const osg::StateSet>& stateSet : leaf.states)
-            hasher.addData(stateSet.get());
-    }
-    return hasher.value();
 }
 
 /// Tells which of OpenGL's passes over a drawable in one place a leaf is.
@@ -163,38 +152,47 @@ bool GraphCollector::finds(const std::vector<CapturedLeaf>& walked,
 /// Decides what becomes of the last node of the node path.
 CullOutcome GraphCollector::cullOutcome()
 {
+    CullRecord record;
+    if (_input.pass->isClone)
+        CullCapture(*_input.pass, *_input.view, _input.traversalMask)
+            .node(getNodePath(), _worldFromLocal.back(), record);
+    CullOutcome outcome = cullOutcome(record);
+    outcome.record = std::move(record);
+    return outcome;
+}
+
+/// Decides what becomes of the last node of the node path, of which a cull traversal has shown
+/// this.
+CullOutcome GraphCollector::cullOutcome(const CullRecord& record)
+{
     CullOutcome outcome;
     outcome.path = getNodePath();
     constexpr std::size_t kAbove = 2;
     for (std::size_t i = kAbove; i < outcome.path.size(); ++i)
         outcome.kept.push_back(outcome.path[i]);
     outcome.kind = CullOutcome::Left;
-    if (!_input.pass->isClone) return outcome;
+    if (!_input.pass->isClone || !record.error().empty()) return outcome;
 
-    const CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
-    CapturedContent culled = capture.node(outcome.path, _worldFromLocal.back());
-    outcome.error = culled.error;
-    if (!outcome.error.empty()) return outcome;
-    outcome.captured = culled.leaves.size();
-    outcome.signature = signatureOf(culled.leaves);
+    std::vector<CapturedLeaf> culled = record.leaves();
     if (const osg::Drawable* drawable = outcome.path.back()->asDrawable())
     {
-        outcome.kind = takesChosen(*drawable, culled, outcome);
+        outcome.kind = takesChosen(*drawable, culled, record.otherStages(), outcome);
         return outcome;
     }
     // A transform may ask the cull visitor for its eye, as those of skies do.
     const osg::Transform* transform = outcome.path.back()->asTransform();
     const osg::Matrixd& outer = _worldFromLocal.back();
-    const CapturedContent walked = capture.below(
+    const CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
+    const CullRecord walked = capture.below(
         outcome.path, transform ? worldFromLocal(*transform, outer, *this, _input.view) : outer);
-    if (walked.error.empty() && finds(walked.leaves, culled.leaves))
+    if (walked.error().empty() && finds(walked.leaves(), culled))
     {
         outcome.kind = CullOutcome::Plain;
         return outcome;
     }
     outcome.kind = CullOutcome::Captured;
-    outcome.otherStages = culled.otherStages;
-    decideOnLeaves(culled.leaves, outcome);
+    outcome.otherStages = record.otherStages();
+    decideOnLeaves(culled, outcome);
     return outcome;
 }
 
@@ -227,16 +225,17 @@ void GraphCollector::decideOnLeaves(std::vector<CapturedLeaf>& leaves, CullOutco
 /// both cases OSG draws it like any drawable that is not known. What is chosen is asked for by its
 /// copy, which stays the same object from frame to frame.
 CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
-                                              const CapturedContent& culled, CullOutcome& outcome)
+                                              const std::vector<CapturedLeaf>& culled,
+                                              bool otherStages, CullOutcome& outcome)
 {
-    for (const CapturedLeaf& leaf : culled.leaves)
+    for (const CapturedLeaf& leaf : culled)
         if (leaf.drawable == &drawable) return CullOutcome::Left;
-    if (culled.leaves.empty() || culled.otherStages) return CullOutcome::Plain;
+    if (culled.empty() || otherStages) return CullOutcome::Plain;
     std::vector<CulledLeaf> leaves;
-    for (std::size_t i = 0; i < culled.leaves.size(); ++i)
+    for (std::size_t i = 0; i < culled.size(); ++i)
     {
         CulledLeaf& leaf = leaves.emplace_back();
-        static_cast<CapturedLeaf&>(leaf) = culled.leaves[i];
+        static_cast<CapturedLeaf&>(leaf) = culled[i];
         const osg::Geometry* geometry = leaf.drawable->asGeometry();
         if (!geometry) return CullOutcome::Plain;
         leaf.made = true;
@@ -247,25 +246,23 @@ CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
     return CullOutcome::Captured;
 }
 
-std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path,
-                                                         HookAnswers& answers)
+std::optional<bool> GraphCollector::repeatsCullAt(const osg::NodePath& path, CullRecord& record,
+                                                  const CullRecord::SameState& sameState)
 {
-    if (!_input.pass || !_input.view || !descendTo(path)) return std::nullopt;
-    pushOntoNodePath(path.back());
-    _materials.repeatAnswers(answers);
-    CullOutcome outcome = cullOutcome();
-    if (_materials.lacksAnswers()) return std::nullopt;
-    return outcome;
-}
-
-std::optional<uint64_t> GraphCollector::cullSignatureAt(const osg::NodePath& path)
-{
-    if (!_input.pass || !_input.view || !descendTo(path)) return std::nullopt;
+    if (!_input.pass || !_input.view || !_input.pass->isClone || !descendTo(path))
+        return std::nullopt;
     pushOntoNodePath(path.back());
     const CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
-    const CapturedContent culled = capture.node(getNodePath(), _worldFromLocal.back());
-    if (!culled.error.empty()) return std::nullopt;
-    return signatureOf(culled.leaves);
+    return capture.node(getNodePath(), _worldFromLocal.back(), record, sameState);
+}
+
+std::optional<CullOutcome> GraphCollector::cullOutcomeOf(const CullRecord& record,
+                                                         HookAnswers& answers)
+{
+    _materials.repeatAnswers(answers);
+    CullOutcome outcome = cullOutcome(record);
+    if (_materials.lacksAnswers()) return std::nullopt;
+    return outcome;
 }
 
 } // namespace osgRayTrace::engine

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 #include <string_view>
 #include <typeinfo>
@@ -93,19 +92,6 @@ bool isHintedAlike(const osg::Node& node)
 {
     std::set<const osg::Node*> seen;
     return isHintedAlike(node, seen);
-}
-
-bool sameMatrix(const osg::Matrixd& a, const osg::Matrixd& b, double eyeDistance)
-{
-    constexpr double kRounding = 1e-11;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-        {
-            const double size = row == 3 ? eyeDistance + std::abs(a(row, column)) : 1.0;
-            const double bound = kRounding * (size + std::abs(a(row, column)));
-            if (!(std::abs(a(row, column) - b(row, column)) <= bound)) return false;
-        }
-    return true;
 }
 
 } // namespace osgRayTrace::engine

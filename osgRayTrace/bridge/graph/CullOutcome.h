@@ -3,12 +3,11 @@
 #pragma once
 
 #include "osgRayTrace/bridge/appearance/materials/HookAnswers.h"
-#include "osgRayTrace/bridge/graph/CullCapture.h"
+#include "osgRayTrace/bridge/graph/CullRecord.h"
 
 #include <osg/Node>
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -44,11 +43,10 @@ struct CullOutcome
     osg::NodePath path;                        ///< from the root to the node
     std::vector<osg::ref_ptr<osg::Node>> kept; ///< nodes of path from below the decorator on
     std::vector<CulledLeaf> leaves;            ///< in the order of the traversal, if Captured
-    bool otherStages = false;                  ///< see CapturedContent
-    std::size_t captured = 0;                  ///< number of leaves of the cull traversal
-    uint64_t signature = 0; ///< hash of the drawables and state sets of those leaves
-    std::string error;      ///< see CapturedContent
-    HookAnswers answers;    ///< answers of the application's hook for the drawables
+    CullRecord record;   ///< what the cull traversal has left to draw; of a conversion alone
+    HookAnswers answers; ///< answers of the application's hook for the drawables
+
+    bool otherStages = false; ///< see CullRecord
 
     /// Returns whether OSG has to draw something of the subtree.
     bool isDrawn() const;
@@ -61,8 +59,5 @@ const char* cullReason(const osg::Node& node);
 
 /// Returns whether nothing below a node has a hint against OSG drawing all of it.
 bool isHintedAlike(const osg::Node& node);
-
-/// Returns whether two matrices are equal but for the rounding of a way through another view.
-bool sameMatrix(const osg::Matrixd& a, const osg::Matrixd& b, double eyeDistance);
 
 } // namespace osgRayTrace::engine

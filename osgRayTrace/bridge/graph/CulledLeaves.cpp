@@ -83,9 +83,10 @@ bool GraphCollector::collectsChosen(osg::Drawable& drawable)
 /// Collects a node by the leaves of its cull traversal.
 void GraphCollector::collectCulled(osg::Node& node, CullOutcome& outcome, const char* reason)
 {
-    if (!outcome.error.empty())
+    if (!outcome.record.error().empty())
         _report.warn("warned.cull-exception", "node '" + path() + "'",
-                     "has thrown an exception in a cull traversal, left to OSG: " + outcome.error);
+                     "has thrown an exception in a cull traversal, left to OSG: " +
+                         outcome.record.error());
     _lightsOnly = true;
     walkBelow(node);
     _lightsOnly = false;

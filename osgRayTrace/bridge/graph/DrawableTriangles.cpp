@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 
-#include "osgRayTrace/bridge/common/MemoryHash.h"
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 #include "osgRayTrace/scene/Mesh.h"

@@ -46,13 +46,14 @@ public:
     /// false if the node cannot be placed.
     bool collectAt(const osg::NodePath& path);
 
-    /// Returns what becomes of the last node of a path, as collectAt() would decide now with these
-    /// answers of the hook, which is not asked. Nothing: the node cannot be placed, or an answer is
-    /// not there.
-    std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path, HookAnswers& answers);
+    /// Repeats the cull traversal of the last node of a path. Returns CullRecord::take(); nothing:
+    /// the node cannot be placed, or the traversal cannot be repeated.
+    std::optional<bool> repeatsCullAt(const osg::NodePath& path, CullRecord& record,
+                                      const CullRecord::SameState& sameState = {});
 
-    /// Returns CullOutcome::signature as it is now, in half the time.
-    std::optional<uint64_t> cullSignatureAt(const osg::NodePath& path);
+    /// Returns what becomes of the node of repeatsCullAt(), as a conversion would decide on its
+    /// record with these answers of the hook, which is not asked. Nothing: an answer is not there.
+    std::optional<CullOutcome> cullOutcomeOf(const CullRecord& record, HookAnswers& answers);
 
     /// Returns what was found. The caller may call this only once, after the traversal.
     CollectedGraph take();
@@ -108,7 +109,9 @@ private:
     const char* leftReason(const CapturedLeaf& leaf);
     bool finds(const std::vector<CapturedLeaf>& walked, const std::vector<CapturedLeaf>& culled);
     CullOutcome cullOutcome();
-    CullOutcome::Kind takesChosen(const osg::Drawable& drawable, const CapturedContent& culled,
+    CullOutcome cullOutcome(const CullRecord& record);
+    CullOutcome::Kind takesChosen(const osg::Drawable& drawable,
+                                  const std::vector<CapturedLeaf>& culled, bool otherStages,
                                   CullOutcome& outcome);
     bool collectsChosen(osg::Drawable& drawable);
     bool leavesOut(const osg::Drawable& drawable);

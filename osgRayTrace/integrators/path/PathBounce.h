@@ -94,6 +94,7 @@ struct Bounce
     LaneMask transmissive = 0; ///< general lanes that transmit
     LaneMask gathering = 0;    ///< lanes that look up photons
     LaneMask rough = 0;        ///< gathering lanes that look up all photons
+    LaneMask behindPanes = 0;  ///< lanes whose rays have passed panes on their way
     LaneMask terminating = 0;  ///< gathering lanes that go on by mirror-like lobes only
     Bsdf* bsdfs = nullptr;     ///< BSDFs of general lanes
 };
@@ -150,6 +151,29 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 
 /// Adds the radiance that the photons around the lanes' points send back along the lanes' rays.
 void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce);
+
+/// The radiance by the photons that project into the pixels of some lanes.
+struct FootprintSums
+{
+    LaneMask chosen = 0;   ///< lanes whose pixels take the photons of their footprint
+    LaneMask compared = 0; ///< lanes whose pixels take those of a disc, and compare both
+    Vec3Lanes radiance;    ///< of the lanes of both sets
+};
+
+/// Sums up the photons in the footprints of the first hits whose pixels take or compare them, as
+/// earlier passes have chosen. queries are discs of any radius at the lanes that gather.
+void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                      PhotonQueryLanes queries, FootprintSums& sums);
+
+/// Chooses for later passes which pixels of the queries' lanes compare their disc with their
+/// footprint, and which take the photons of the footprint. discRadiance is that of the discs.
+void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                      const PhotonQueryLanes& queries, const Vec3Lanes& discRadiance,
+                      const FootprintSums& footprints);
+
+/// Corrects the sums of discs at first hits that reach beyond the edge of their surface.
+void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                  const PhotonQueryLanes& queries, PhotonSumLanes& sums);
 
 /// Appends the lanes of a bounce to the tile's hit points, with all that addPhotons and
 /// sampleLights read of a lane.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Importance and Uniform sampling combine one direction a bounce with the ray that the surface sent
-// on, by multiple importance sampling with the power heuristic [Veach97, sect. 9.2].
+// on, by multiple importance sampling with the power heuristic [Veach97, sect. 9.2]. Importance
+// leaves directions that are no brighter than the mean to these rays [Karlik19].
 //
 // Structured sampling takes the sum over all strata at the end of the camera ray, and one stratum
 // by chance at later surfaces. Rays that a rough surface sent on then add no light of the
@@ -78,7 +79,8 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
         sampleOneStratum(tile, block, bounce, lanes, u);
         return;
     }
-    environmentLanes(tile.context, bounce.surface, lanes, bounce.transmissive, u, v, samples);
+    environmentLanes(tile.context, {bounce.surface, lanes, bounce.transmissive, u, v},
+                     bounce.terminating, samples);
     addSamples(tile, block, bounce, samples, bounce.terminating);
 }
 

@@ -54,6 +54,12 @@ public:
     /// met mirror-like surfaces since. The fact matters with PhotonUse::Caustics.
     bool isOnCausticChain() const { return (_word & kCausticChain) != 0; }
 
+    /// Returns whether the path is one of the two into which a camera path has split.
+    bool isSplit() const { return (_word & kSplit) != 0; }
+
+    /// Returns the flags of the same path, marked as one of two.
+    PathFlags split() const { return PathFlags(_word | kSplit); }
+
     /// Returns the flags of the same path, marked as reused.
     PathFlags reused() const { return PathFlags(_word | kReused); }
 
@@ -78,6 +84,7 @@ private:
     /// The last surface that scattered the path is one that photons know.
     static constexpr uint32_t kGathered = 0x40000u;
     static constexpr uint32_t kTaken = 0x80000u;
+    static constexpr uint32_t kSplit = 0x100000u;
     static_assert((kTilePixels & (kTilePixels - 1)) == 0 && 2 * kTilePixels <= kScattered,
                   "the pixel and the bit of reuse are below the other bits");
 

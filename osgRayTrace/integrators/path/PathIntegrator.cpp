@@ -79,8 +79,9 @@ void passMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
     const TracedScene& traced = *tile.context.traced;
     const HitRule rule = number == 0 ? kCameraRays : HitRule();
     if (traced.traits().panes)
-        passPanes(tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
-                  tile.counts);
+        bounce.behindPanes = passPanes(
+            tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
+            tile.counts);
     if (traced.traits().panes && traced.traits().mipmaps)
         setFootprints(block.rays.ray, block.cones, bounce.surface);
     if (traced.traits().attenuation)

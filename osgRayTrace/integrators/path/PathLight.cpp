@@ -50,15 +50,20 @@ float pdfOfLight(const LightTable& table, uint32_t light, int number, const Path
     const float distance = ray.tFar[i];
     const float cosThetaL =
         std::fabs(glm::dot(directionOf(ray, i), laneOf(surface.geometricNormal, i)));
-    if (!table.tree()) return table.areaLightPmf(light) * table.pdfArea(light, distance, cosThetaL);
+    const Vec3 from(ray.originX[i], ray.originY[i], ray.originZ[i]);
+    if (!table.tree())
+        return table.areaLightPmf(light) * table.pdfFrom(light, from, distance, cosThetaL);
     if (!(block.pdfW[i] < kInfinity)) return 0.0f; // no light sample was taken there
     const uint32_t emitter = table.emitterOf(light, block.rays.primitive[i]);
     if (emitter == kInvalid) return 0.0f;
     const float pmf = table.tree()->pmf(laneOf(block.vertices.position, i),
                                         laneOf(block.vertices.normal, i), emitter);
-    const float area = table.tree()->emitter(emitter).area;
+    const LightEmitter& chosen = table.tree()->emitter(emitter);
     const auto picks = static_cast<float>(treePicks(number - 1));
-    return picks * pmf * distance * distance / (area * cosThetaL);
+    const float angle =
+        chosen.flags & kRectangle ? sampledAngle(rectangleLight(chosen), plainOf(from)) : 0.0f;
+    if (angle > 0.0f) return picks * pmf / angle;
+    return picks * pmf * distance * distance / (chosen.area * cosThetaL);
 }
 
 } // namespace

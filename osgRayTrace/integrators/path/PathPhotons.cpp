@@ -41,9 +41,10 @@ void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
     }
 }
 
-/// Returns the discs of the lanes that gather, and chooses the first radius of each pixel that has
-/// none yet.
-PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce)
+/// Returns the discs of the lanes that gather, but for those that take the photons of footprints,
+/// and chooses the first radius of each pixel that has none yet.
+PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                           FootprintSums& footprints)
 {
     const auto edgesLeft = static_cast<uint32_t>(tile.context.options.maxBounces - bounce.number);
     PhotonQueryLanes queries;
@@ -52,7 +53,9 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     queries.shadingNormal = bounce.normal;
     queries.mostEdges = std::min(kMostEdges, edgesLeft);
     queries.lanes = bounce.gathering;
-    for (const int i : lanesIn(bounce.gathering))
+    gatherFootprints(tile, block, bounce, queries, footprints);
+    queries.lanes &= ~footprints.chosen;
+    for (const int i : lanesIn(queries.lanes))
     {
         const PathFlags path = block.flagsOf(i);
         // A reused path has taken photons, so chooseGathering left such a path out.
@@ -67,14 +70,15 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     return queries;
 }
 
-/// Sets sums to f times power, summed over the photons in the discs of all lanes that gather.
+/// Sets sums to f times power, summed over the photons in the discs of the queries' lanes.
 void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
                  PhotonSumLanes& sums)
 {
     const PhotonMap& map = *tile.context.photons;
-    queries.lanes = bounce.gathering & bounce.diffuse;
+    const LaneMask lanes = queries.lanes;
+    queries.lanes = lanes & bounce.diffuse;
     gatherDiffuse(map, queries, bounce.albedo, sums);
-    queries.lanes = bounce.gathering & ~bounce.diffuse;
+    queries.lanes = lanes & ~bounce.diffuse;
     if (!queries.lanes) return;
     GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
     for (int i = 0; i < kLanes; ++i)
@@ -82,31 +86,36 @@ void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, c
     gatherBsdf(map, points, sums, tile.gatherScratch);
 }
 
-/// Returns the gathering lanes whose pixels are in the block that compares discs.
-LaneMask comparedLanes(const PathBlock& block, LaneMask gathering, int comparedBlock)
+/// Returns those of the lanes whose pixels are in the block that compares discs, without those that
+/// correctEdges corrects: at an edge discs of all radii have shares of their own.
+LaneMask comparedLanes(const GatheredPhotons& gathered, const PathBlock& block, LaneMask gathering)
 {
     LaneMask lanes = 0;
     for (const int i : lanesIn(gathering))
-        if (static_cast<int>(block.flagsOf(i).pixel()) / kLanes == comparedBlock) lanes |= 1u << i;
+    {
+        const uint32_t pixel = block.flagsOf(i).pixel();
+        const bool near = gathered.planes && gathered.planes[pixel].edge == DiscEdge::Near;
+        if (static_cast<int>(pixel) / kLanes == gathered.comparedBlock && !near) lanes |= 1u << i;
+    }
     return lanes;
 }
 
 /// Adds the differences between each disc's radiance and that by the next smaller disc, whose
 /// photons are among those of the larger one. sums are those of the discs of the queries.
-void compareDiscs(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, Bounce bounce,
-                  PhotonSumLanes sums)
+void compareDiscs(Tile& tile, PhotonQueryLanes queries, const PathBlock& block,
+                  const Bounce& bounce, PhotonSumLanes sums)
 {
     GatheredPhotons& gathered = *tile.result.photons.gathered;
-    bounce.gathering = comparedLanes(block, bounce.gathering, gathered.comparedBlock);
-    if (!bounce.gathering) return;
+    queries.lanes = comparedLanes(gathered, block, queries.lanes);
+    if (!queries.lanes) return;
     PhotonSumLanes smaller;
     for (auto& differences : gathered.differences)
     {
         PhotonQueryLanes half = queries;
-        for (const int i : lanesIn(bounce.gathering))
+        for (const int i : lanesIn(queries.lanes))
             half.radius[i] = queries.radius[i] * kSmallerDisc;
         gatherLanes(tile, half, block, bounce, smaller);
-        for (const int i : lanesIn(bounce.gathering))
+        for (const int i : lanesIn(queries.lanes))
         {
             const float discArea = kPi * queries.radius[i] * queries.radius[i];
             const Vec3 difference =
@@ -146,16 +155,23 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     if (!bounce.gathering) return;
     GatheredPhotons& gathered = *tile.result.photons.gathered;
-    const PhotonQueryLanes queries = queriesOf(tile, block, bounce);
+    FootprintSums footprints;
+    const PhotonQueryLanes queries = queriesOf(tile, block, bounce, footprints);
+    for (const int i : lanesIn(footprints.chosen))
+        tile.sums.add(block.flagsOf(i), laneOf(footprints.radiance, i));
+    if (!queries.lanes) return;
     PhotonSumLanes sums;
     gatherLanes(tile, queries, block, bounce, sums);
     if (gathered.comparedBlock >= 0) compareDiscs(tile, queries, block, bounce, sums);
-    for (const int i : lanesIn(bounce.gathering))
+    correctEdges(tile, block, bounce, queries, sums);
+    Vec3Lanes radiance = {};
+    for (const int i : lanesIn(queries.lanes))
     {
         if (sums.count[i] == 0) continue;
         const uint32_t pixel = block.flagsOf(i).pixel();
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
+        setLane(radiance, i, flux / discArea);
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sums.count[i] <= kMostRecordedPhotons)
             recordSeen(*tile.context.photons, laneOf(queries, i), luminance(flux) / discArea,
@@ -168,6 +184,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         else
             tile.sums.add(block.flagsOf(i), flux / discArea);
     }
+    chooseFootprints(tile, block, bounce, queries, radiance, footprints);
 }
 
 } // namespace osgRayTrace::engine

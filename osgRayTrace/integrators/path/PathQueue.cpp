@@ -38,10 +38,23 @@ void moveVertex(const PathBlock& from, int i, PathBlock& to, int k)
 
 } // namespace
 
+PathPlace addPath(PathQueue& paths, const PathBlock& from, int i, bool withVertices)
+{
+    OSGRAYTRACE_ASSERT(paths.hasRoom());
+    PathBlock& to = paths.blocks[paths.count + paths.added / kLanes];
+    const int lane = paths.added++ % kLanes;
+    moveLane(from, i, to, lane);
+    if (withVertices) moveVertex(from, i, to, lane);
+    to.active = lane == 0 ? 1u : to.active | (1u << lane);
+    return {to, lane};
+}
+
 void compactPaths(PathQueue& paths, bool withVertices)
 {
     int count = 0;
-    for (int b = 0; b < paths.count; ++b)
+    const int used = paths.count + (paths.added + kLanes - 1) / kLanes;
+    paths.added = 0;
+    for (int b = 0; b < used; ++b)
     {
         PathBlock& from = paths.blocks[b];
         for (const int i : lanesIn(from.active))
@@ -59,8 +72,8 @@ void compactPaths(PathQueue& paths, bool withVertices)
     for (int b = 0; b < paths.count; ++b)
     {
         PathBlock& block = paths.blocks[b];
-        const int used = std::min(kLanes, count - b * kLanes);
-        block.active = (1u << used) - 1u;
+        const int lanes = std::min(kLanes, count - b * kLanes);
+        block.active = (1u << lanes) - 1u;
         for (int i = 0; i < kLanes; ++i)
             block.rays.ray.tFar[i] = kInfinity;
     }

@@ -28,11 +28,28 @@ struct PathBlock
     PathFlags flagsOf(int lane) const { return PathFlags(flags[lane]); }
 };
 
+/// The paths of a tile: one for each pixel, and as many again that split off.
 struct PathQueue
 {
-    PathBlock blocks[kTileBlocks];
+    static constexpr int kBlocks = 2 * kTileBlocks;
+
+    PathBlock blocks[kBlocks];
     int count = kTileBlocks; ///< number of blocks in use
+    int added = 0;           ///< paths behind those blocks, which begin with the next bounce
+
+    bool hasRoom() const { return count * kLanes + added < kBlocks * kLanes; }
 };
+
+/// The place of a path in a queue.
+struct PathPlace
+{
+    PathBlock& block;
+    int lane;
+};
+
+/// Adds a copy of the path in lane i of from, which does not bounce before the paths have been
+/// compacted. The queue must have room. The vertices are copied if they are set.
+PathPlace addPath(PathQueue& paths, const PathBlock& from, int i, bool withVertices);
 
 /// Moves the paths that go on into as few blocks as possible, in order, and sets the tFar of all
 /// their rays to infinity. The vertices are moved if they are set.

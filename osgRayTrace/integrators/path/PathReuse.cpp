@@ -13,8 +13,9 @@
 // The sum holds because f_i cosTheta_i cosTheta_y V / r^2 = albedo_i p_i for a diffuse surface. A
 // connection costs one shadow ray for each pair of pixels, and a path costs some ten times as much.
 // The choice of reused y depends on y alone, so that all p_k belong to the same samples; paths with
-// any other y are for their own pixel. Scenes with panes share no paths: f_i would have the
-// transmittance of the panes on the way, and V would be that of each connection.
+// any other y are for their own pixel. V is 0 behind panes, and a path that has passed a pane on
+// its way from x_j to y_j is for its own pixel: so each y that a pixel sees through a pane is found
+// by that pixel's own paths alone, and each y that it sees without by those that are reused.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
@@ -162,8 +163,7 @@ void connectGroup(Tile& tile, int group)
 void beginReuse(Tile& tile, PhotonUse use)
 {
     const GatheredPhotons* gathered = tile.result.photons.gathered;
-    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate) &&
-                        !tile.context.traced->traits().panes;
+    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
     const PassKey& key = tile.context.key;
     const uint32_t seed =
         pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));
@@ -190,7 +190,8 @@ void recordFirstSurfaces(Tile& tile, int b, const Bounce& bounce)
 
 void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
-    for (const int i : lanesIn(bounce.diffuse & ~bounce.surface.terminatorLanes))
+    for (const int i :
+         lanesIn(bounce.diffuse & ~bounce.surface.terminatorLanes & ~bounce.behindPanes))
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         const int group = tile.reuse.groupOf(pixel);

@@ -92,6 +92,16 @@ void addTransmitted(const PhotonMap& map, const GatherLanes& points, int i, Phot
 
 } // namespace
 
+Vec3 scatterPhoton(const GatherLanes& points, const Vec3Lanes& albedo, LaneMask diffuse, int i,
+                   const Photon& photon)
+{
+    const float cosine = glm::dot(photon.wi, laneOf(points.queries.shadingNormal, i));
+    if (!(cosine > 0.0f)) return Vec3(0.0f);
+    const float geometric = glm::dot(photon.wi, laneOf(points.queries.normal, i));
+    if ((diffuse >> i) & 1u) return laneOf(albedo, i) * (kInvPi * cosine / geometric);
+    return evalAlone(points, i, photon.wi) / geometric;
+}
+
 void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums,
                 GatherScratch& scratch)
 {

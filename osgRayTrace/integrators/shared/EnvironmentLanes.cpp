@@ -39,20 +39,22 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool transmissive, Vec
 
 } // namespace
 
-void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
-                      LaneMask transmissive, const FloatLanes& u, const FloatLanes& v,
+void environmentLanes(const PassContext& context, const LightReceivers& receivers, LaneMask alone,
                       LightLanes& samples)
 {
     const PlacedEnvironment& environment = *context.traced->lights().environment();
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
-    transmissive |= surface.terminatorLanes;
+    const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
     samples.lit = 0;
-    for (const int i : lanesIn(active))
+    for (const int i : lanesIn(receivers.active))
     {
+        const float u = receivers.u[i], v = receivers.v[i];
+        const EnvironmentDensity density =
+            (alone >> i) & 1u ? EnvironmentDensity::Luminance : EnvironmentDensity::Compensated;
         const EnvironmentSample sample =
-            uniform ? uniformSample(environment, u[i], v[i]) : environment.sample(u[i], v[i]);
+            uniform ? uniformSample(environment, u, v) : environment.sample(u, v, density);
         if (!(sample.pdfW > 0.0f)) continue;
-        const bool lit = setLane(surface, i, sample.direction, (transmissive >> i) & 1u,
+        const bool lit = setLane(receivers.surface, i, sample.direction, (transmissive >> i) & 1u,
                                  sample.radiance, 1.0f / sample.pdfW, samples);
         samples.lit |= static_cast<LaneMask>(lit) << i;
     }
@@ -75,7 +77,7 @@ float environmentPdfW(const PassContext& context, const PlacedEnvironment& envir
                       Vec3 direction)
 {
     const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
-    return uniform ? kUniformPdfW : environment.pdfW(direction);
+    return uniform ? kUniformPdfW : environment.pdfW(direction, EnvironmentDensity::Compensated);
 }
 
 Vec3 radianceBehind(const PassContext& context, const RayBlock& ray, int i)

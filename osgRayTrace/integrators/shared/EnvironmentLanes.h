@@ -7,10 +7,11 @@
 namespace osgRayTrace::engine
 {
 
-/// Sets a sample of the environment for the lanes of active, by Importance or Uniform sampling.
-/// Lanes are left out as areaLightLanes leaves them out.
-void environmentLanes(const PassContext& context, const SurfaceLanes& surface, LaneMask active,
-                      LaneMask throughSurface, const FloatLanes& u, const FloatLanes& v,
+/// Sets a sample of the environment for the active receivers, by Importance or Uniform sampling.
+/// Lanes are left out as areaLightLanes leaves them out. Importance samples of lanes whose light
+/// rays find by chance as well have EnvironmentDensity::Compensated; alone: the lanes whose samples
+/// are all that finds this light, which have EnvironmentDensity::Luminance.
+void environmentLanes(const PassContext& context, const LightReceivers& receivers, LaneMask alone,
                       LightLanes& samples);
 
 /// Sets samples as environmentLanes does, towards one stratum. inversePmf is 1 over the probability
@@ -18,7 +19,8 @@ void environmentLanes(const PassContext& context, const SurfaceLanes& surface, L
 void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,
                   LaneMask active, LaneMask throughSurface, LightLanes& samples);
 
-/// Returns the density [1/sr] with which environmentLanes finds a direction.
+/// Returns the density [1/sr] with which environmentLanes finds a direction in lanes that are not
+/// alone.
 float environmentPdfW(const PassContext& context, const PlacedEnvironment& environment,
                       Vec3 direction);
 

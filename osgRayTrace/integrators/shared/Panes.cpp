@@ -68,9 +68,9 @@ void meetBehind(const PassContext& context, const PaneRays& lanes, LaneMask pass
 
 } // namespace
 
-void passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts)
+LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts)
 {
-    LaneMask open = lanes.active;
+    LaneMask open = lanes.active, all = 0;
     for (int panes = 0; panes < kMostPanes; ++panes)
     {
         LaneMask passed = 0;
@@ -84,11 +84,13 @@ void passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& co
             setLane(lanes.throughput, i, laneOf(lanes.throughput, i) * weight);
             passed |= static_cast<LaneMask>(goesOn) << i;
         }
-        if (!passed) return;
+        if (!passed) return all;
+        all |= passed;
         meetBehind(context, lanes, passed);
         counts.secondaryRays += static_cast<uint64_t>(countLanes(passed));
         open = passed;
     }
+    return all;
 }
 
 LaneMask throughPanes(const PassContext& context, const RayBlock& shadow, LaneMask blocked,

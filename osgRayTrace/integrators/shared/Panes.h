@@ -24,8 +24,9 @@ struct PaneRays
 /// else it stays with throughput 1 / (1 - p), and the caller has to leave out the straight lobe:
 /// dropStraightLobe. A ray that goes on keeps its origin, its distance and all densities, so that
 /// light samples, whose shadow rays pass panes as well, and rays that meet lights weigh the same
-/// light. Scenes without SceneTraits::panes need no call.
-void passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts);
+/// light. Returns the lanes that have passed some pane. Scenes without SceneTraits::panes need no
+/// call.
+LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts);
 
 /// Leaves out the lobe that passPanes has taken.
 inline void dropStraightLobe(Bsdf& bsdf)

@@ -14,6 +14,7 @@ namespace osgRayTrace::engine
 {
 
 class PhotonMap;
+class PixelProjection;
 
 /// The input of a pass over the image of one view. All threads share it, and none changes it.
 struct PassContext
@@ -36,8 +37,9 @@ struct PassContext
     /// The environment's strata, if options.environmentSampling is Structured; null: none.
     const std::vector<EnvironmentStratum>* strata = nullptr;
 
-    const PhotonMap* photons = nullptr; ///< photons of the pass, if photonUse is not None
-    float leastPhotonRadius = 0.0f;     ///< least radius of look-ups in this pass [length]
+    const PhotonMap* photons = nullptr;          ///< photons of the pass, if photonUse is not None
+    const PixelProjection* projection = nullptr; ///< of the camera; set if photons are
+    float leastPhotonRadius = 0.0f;              ///< least radius of look-ups in this pass [length]
     float largestPhotonRadius = 0.0f;
 };
 

@@ -47,4 +47,9 @@ void gatherDiffuse(const PhotonMap& map, const PhotonQueryLanes& queries, const 
 void gatherBsdf(const PhotonMap& map, const GatherLanes& points, PhotonSumLanes& sums,
                 GatherScratch& scratch);
 
+/// Returns f cosTheta / cosGeometric of lane i for the light of a photon from the side of wo: the
+/// radiance that its flux becomes is that times the flux over an area.
+Vec3 scatterPhoton(const GatherLanes& points, const Vec3Lanes& albedo, LaneMask diffuse, int i,
+                   const Photon& photon);
+
 } // namespace osgRayTrace::engine

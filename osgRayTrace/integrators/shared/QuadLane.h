@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/SurfaceLanes.h"
 #include "osgRayTrace/integrators/shared/LightLanes.h"
+#include "osgRayTrace/shading/RectangleLight.h"
 
 #include <cmath>
 
@@ -20,10 +21,19 @@ struct Quad
     PlainVec3 radiance;
 };
 
+/// A point on a light.
+struct QuadPoint
+{
+    PlainVec3 place;
+    float solidAngle; ///< directions to the point are uniform over it [sr]; 0: the place is by area
+};
+
 /// Sets the sample of lane i. Returns all bits if the light can reach the surface.
 OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const SurfaceLanes& surface,
-                                     int i, uint32_t transmissive, PlainVec3 l, LightLanes& samples)
+                                     int i, uint32_t transmissive, QuadPoint point,
+                                     LightLanes& samples)
 {
+    const PlainVec3 l = point.place;
     const PlainVec3 p = plainOf(surface.position, i), n = plainOf(surface.geometricNormal, i);
     const PlainVec3 lightNormal = q.normal;
 
@@ -48,20 +58,34 @@ OSGRAYTRACE_INLINE uint32_t quadLane(const Quad& q, float inversePmf, const Surf
 
     const float cosL = -dot(wi, lightNormal);
     const float cosine = select(q.twoSided, std::fabs(cosL), cosL);
-    const float weight = cosine * q.area * inverse * inverse;
+    const float byArea = cosine * q.area * inverse * inverse;
+    const float weight = select(point.solidAngle > 0.0f, point.solidAngle, byArea);
     samples.weight[i] = weight * inversePmf;
     samples.radiance[0][i] = q.radiance.x;
     samples.radiance[1][i] = q.radiance.y;
     samples.radiance[2][i] = q.radiance.z;
     setRay(samples.shadow, i, origin, d * perDistance, 0.0f, distance);
     const uint32_t reachable = maskOf(above > 0.0f) | transmissive;
-    return maskOf(weight > 0.0f) & maskOf(weight < 1e30f) & reachable;
+    return maskOf(byArea > 0.0f) & maskOf(weight < 1e30f) & reachable;
 }
 
 OSGRAYTRACE_INLINE PlainVec3 pointOn(const Quad& q, float u, float v)
 {
     return {q.corner.x + u * q.edgeU.x + v * q.edgeV.x, q.corner.y + u * q.edgeU.y + v * q.edgeV.y,
             q.corner.z + u * q.edgeU.z + v * q.edgeV.z};
+}
+
+/// Returns a point on a rectangle, by solid angle if that is wide from p, else by area.
+OSGRAYTRACE_INLINE QuadPoint rectanglePoint(const Quad& q, const RectangleLight& rectangle,
+                                            PlainVec3 p, float u, float v)
+{
+    const SphericalRectangle seen = seenFrom(rectangle, p);
+    float x, y;
+    squareToSphericalRectangle(seen, u, v, x, y);
+    const uint32_t wide = isWide(rectangle, seen);
+    const float s = select(wide, (x - seen.x0) / rectangle.width, u);
+    const float t = select(wide, (y - seen.y0) / rectangle.height, v);
+    return {pointOn(q, s, t), select(wide, seen.solidAngle, 0.0f)};
 }
 
 } // namespace osgRayTrace::engine

@@ -38,8 +38,40 @@ LaneMask quadLanes(const Quad& quad, float pmf, const LightReceivers& receivers,
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
         lit |= bitOfLane(quadLane(q, inversePmf, surface, i, laneBit(transmissive, i),
-                                  pointOn(q, u[i], v[i]), samples),
+                                  {pointOn(q, u[i], v[i]), 0.0f}, samples),
                          i);
+    return lit & receivers.active;
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask nearLanes(const RectangleLight& light, const SurfaceLanes& surface)
+{
+    const RectangleLight rectangle = light;
+    LaneMask near = 0;
+    OSGRAYTRACE_SIMD_OR(near)
+    for (int i = 0; i < kLanes; ++i)
+        near |= bitOfLane(mayBeWide(rectangle, plainOf(surface.position, i)), i);
+    return near;
+}
+
+/// Sets samples as quadLanes does, by solid angle in the lanes from which that is wide.
+OSGRAYTRACE_KERNEL
+LaneMask rectangleLanes(const Quad& quad, const RectangleLight& light, float pmf,
+                        const LightReceivers& receivers, LaneMask transmissive, LightLanes& samples)
+{
+    const Quad q = quad;
+    const RectangleLight rectangle = light;
+    const SurfaceLanes& surface = receivers.surface;
+    const FloatLanes &u = receivers.u, &v = receivers.v;
+    const float inversePmf = 1.0f / pmf;
+    LaneMask lit = 0;
+    OSGRAYTRACE_SIMD_OR(lit)
+    for (int i = 0; i < kLanes; ++i)
+        lit |= bitOfLane(
+            quadLane(q, inversePmf, surface, i, laneBit(transmissive, i),
+                     rectanglePoint(q, rectangle, plainOf(surface.position, i), u[i], v[i]),
+                     samples),
+            i);
     return lit & receivers.active;
 }
 
@@ -87,9 +119,14 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
     const Light& light = (*context.lights)[index];
     if (light.kind == LightKind::Parallelogram)
     {
+        const LightTable& table = context.traced->lights();
         const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
-        samples.lit = quadLanes(quadOf(light, context.traced->lights(), index), pmf, receivers,
-                                transmissive, samples);
+        const Quad quad = quadOf(light, table, index);
+        const RectangleLight* rectangle = table.rectangle(index);
+        const bool near =
+            rectangle && (nearLanes(*rectangle, receivers.surface) & receivers.active);
+        samples.lit = near ? rectangleLanes(quad, *rectangle, pmf, receivers, transmissive, samples)
+                           : quadLanes(quad, pmf, receivers, transmissive, samples);
         return;
     }
     samples.lit = 0;

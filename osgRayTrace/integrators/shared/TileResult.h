@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/KernelBias.h"
+#include "osgRayTrace/integrators/shared/PixelProjection.h"
 
 #include <cstdint>
 #include <vector>
@@ -36,12 +37,45 @@ struct SeenPhoton
     float radiance = 0.0f; ///< luminance of that radiance
 };
 
+/// The photons that the first hits of a pixel take.
+enum class PixelLookup : uint8_t
+{
+    Undecided, ///< those in a disc, which has been too large for the pixel so far
+    Disc,      ///< those in a disc: the pixel sees more than a plane
+    Compared,  ///< those in a disc, which is compared with the pixel's footprint
+    Footprint, ///< those that project into the pixel: the disc has been seen to blur the image
+};
+
+/// Whether the discs of a pixel's first hits reach beyond an edge: see PathDiscEdges.cpp.
+enum class DiscEdge : uint8_t
+{
+    Unknown, ///< no photons have been found yet
+    None,
+    Near,
+};
+
+/// What a pixel sees and how it takes photons there, as earlier passes have chosen: see
+/// PathFootprints.cpp.
+struct SeenPlane
+{
+    Plane plane; ///< set in pixels that are compared, or take the photons of their footprint
+    PixelLookup lookup = PixelLookup::Undecided;
+    DiscEdge edge = DiscEdge::Unknown;
+    // Sums over the passes that were compared, of the luminance by the disc less that by the
+    // footprint, and of its square.
+    float difference = 0.0f, squares = 0.0f;
+};
+
 /// The photon look-ups of each pixel's camera path.
 struct GatheredPhotons
 {
     /// The radius [length]. On input it is that for this pass, or 0 if none is known yet; on output
     /// it is the one that was chosen.
     float radius[kTilePixels] = {};
+
+    /// The planes of the tile's kTilePixels pixels; null: all look-ups are discs.
+    SeenPlane* planes = nullptr;
+    bool choosesPlanes = false; ///< whether this pass may change the planes
 
     // If separate is set (for the local radius schedule), the photons that were found come out in
     // count and flux, and are not part of the image.

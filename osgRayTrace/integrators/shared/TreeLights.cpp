@@ -38,7 +38,36 @@ OSGRAYTRACE_INLINE uint32_t emitterLane(const LightEmitter& e, float inversePmf,
 {
     const Quad q = quadOf(e);
     const PlainVec3 point = pointOn(q, receivers.u[i], receivers.v[i]);
-    return quadLane(q, inversePmf, receivers.surface, i, transmissive, point, samples);
+    return quadLane(q, inversePmf, receivers.surface, i, transmissive, {point, 0.0f}, samples);
+}
+
+/// Returns all bits if the emitter is a rectangle that may be wide from lane i.
+OSGRAYTRACE_INLINE uint32_t nearLane(const LightEmitter& e, const SurfaceLanes& surface, int i)
+{
+    const uint32_t rectangle = 0u - ((e.flags / kRectangle) & 1u);
+    return rectangle & mayBeWide(rectangleLight(e), plainOf(surface.position, i));
+}
+
+OSGRAYTRACE_KERNEL
+LaneMask nearEmitters(const LightEmitter* emitters, const UintLanes& numbers,
+                      const SurfaceLanes& surface)
+{
+    LaneMask near = 0;
+    OSGRAYTRACE_SIMD_OR(near)
+    for (int i = 0; i < kLanes; ++i)
+        near |= bitOfLane(nearLane(emitters[numbers[i]], surface, i), i);
+    return near;
+}
+
+/// Sets the sample of lane i on a rectangle that may be wide.
+bool rectangleLane(const LightEmitter& e, float pmf, const LightReceivers& receivers, int i,
+                   uint32_t transmissive, LightLanes& samples)
+{
+    const Quad q = quadOf(e);
+    const QuadPoint point =
+        rectanglePoint(q, rectangleLight(e), plainOf(receivers.surface.position, i), receivers.u[i],
+                       receivers.v[i]);
+    return quadLane(q, 1.0f / pmf, receivers.surface, i, transmissive, point, samples) != 0;
 }
 
 OSGRAYTRACE_KERNEL
@@ -127,6 +156,7 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
     const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
     const LaneMask lit = emitterLanes(tree.emitters(), samples.emitters, samples.pmf, receivers,
                                       transmissive, lights);
+    const LaneMask near = nearEmitters(tree.emitters(), samples.emitters, receivers.surface);
     lights.lit = lights.tinted = samples.points = 0;
     for (const int i : lanesIn(receivers.active))
     {
@@ -139,10 +169,13 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
             lights.lit |= 1u << i;
             continue;
         }
-        const bool isLit = emitter.flags & kTriangle
-                               ? triangleLane(emitter, samples.pmf[i], receivers, i,
-                                              (transmissive >> i) & 1u, lights)
-                               : ((lit >> i) & 1u) != 0;
+        bool isLit = ((lit >> i) & 1u) != 0;
+        if (emitter.flags & kTriangle)
+            isLit = triangleLane(emitter, samples.pmf[i], receivers, i, (transmissive >> i) & 1u,
+                                 lights);
+        else if ((near >> i) & 1u)
+            isLit = rectangleLane(emitter, samples.pmf[i], receivers, i, laneBit(transmissive, i),
+                                  lights);
         lights.lit |= static_cast<LaneMask>(isLit) << i;
         if (emitter.flags & kTextured)
             setTexturedRadiance(context, emitter, receivers.u[i], receivers.v[i], i, lights);

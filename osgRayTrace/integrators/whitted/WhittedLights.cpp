@@ -154,8 +154,9 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
                   {
                       FloatLanes u, v;
                       grid.draw(behindAreaLights, j, block.seed, u, v);
-                      environmentLanes(context, block.surface, lanes, block.materials.transmissive,
-                                       u, v, block.light);
+                      environmentLanes(context,
+                                       {block.surface, lanes, block.materials.transmissive, u, v},
+                                       kAllLanes, block.light);
                   });
 }
 

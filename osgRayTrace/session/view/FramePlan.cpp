@@ -111,8 +111,9 @@ HeldDivider::PassSeconds FramePlanner::passSeconds(const FrameSituation& frame) 
 {
     return [this, &frame](int divider)
     {
-        // A pass of full resolution may take the same share of the time that it has.
-        const bool hasOwn = divider == 1 && frame.fullSeconds > 0.0;
+        // A pass of full resolution may take the same share of the time that it has. If no time
+        // is left, its cost stays what it is: it is never the one to choose.
+        const bool hasOwn = divider == 1 && frame.fullSeconds > 0.0 && frame.seconds > 0.0;
         const double scale = hasOwn ? frame.seconds / frame.fullSeconds : 1.0;
         return scale * _costs.passSeconds(frame.width, frame.height, divider);
     };

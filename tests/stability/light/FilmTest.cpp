@@ -26,7 +26,7 @@ TEST_CASE("stability 38: 1e8 samples of a pixel keep their mean to 1e-6", "[stab
         if (pass % 100000 == 0) tile[0].g[0] = random();
         sum += tile[0].g[0];
         film.beginPass();
-        film.addPass(0, tile);
+        film.addPass(0, film.tilePasses(0), tile);
     }
     TileRgba mean;
     film.mean(0, mean);

@@ -371,11 +371,13 @@ TEST_CASE("stability 36: no sample through clear glass is brighter than what is 
           "[stability]")
 {
     // The throughput is 1/2.25 within the panes: roulette must not take that for a loss, or the
-    // paths that survive it would arrive with 2.25.
+    // paths that survive it would arrive with 2.25. Camera paths go both ways at the first
+    // interface, and what they reflect is black: the brightest samples have its transmittance,
+    // 0.96.
     float largest = 0.0f;
     for (uint32_t seed = 0; seed < 64; ++seed)
         largest =
             std::max(largest, largestOf(render(panes(8), aboveThePanes(8),
                                                optionsOf(IntegratorKind::Path, 4096, seed), 1)));
-    CHECK(largest == Approx(1.0).epsilon(1e-5));
+    CHECK(largest == Approx(0.96).epsilon(1e-5));
 }

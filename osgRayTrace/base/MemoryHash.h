@@ -1,4 +1,4 @@
-// MemoryHash.h - hashes of memory and of pairs of numbers. Layer: bridge.
+// MemoryHash.h - hashes of memory and of pairs of numbers. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -1,0 +1,38 @@
+// CheckpointKeeper.h - a render that goes on from a file and writes it now and then. Layer: apps.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "Options.h"
+
+#include <osgRayTrace/Renderer>
+
+#include <osg/Vec4>
+
+#include <chrono>
+
+namespace osgRayTrace::app
+{
+
+/// Keeps the checkpoint that the options ask for; does nothing if they ask for none.
+class CheckpointKeeper
+{
+public:
+    /// Lets the renderer begin with the passes of the file, if it is there. Throws
+    /// Failure(kCannotLoad), and Failure(kUsage) if the settings make passes that depend on all
+    /// before.
+    CheckpointKeeper(const Options& options, const osg::Vec4& clearColor, Renderer& renderer);
+
+    /// Writes the file if the interval is over. A failure is printed: there may be room later.
+    void keepIfDue();
+
+    /// Writes the file if there are whole passes. Throws Failure(kCannotWrite).
+    void keep();
+
+private:
+    const Options& _options;
+    osg::Vec4 _clearColor;
+    Renderer& _renderer;
+    std::chrono::steady_clock::time_point _kept;
+};
+
+} // namespace osgRayTrace::app

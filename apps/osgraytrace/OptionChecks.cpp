@@ -1,0 +1,97 @@
+// OptionChecks.cpp - which options of the command line go together. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "OptionChecks.h"
+
+#include "PictureFormat.h"
+#include "apps/common/Failure.h"
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+constexpr double kMaxPixels = 1 << 28;
+
+/// Throws Failure(kUsage) if --write-materials stands beside something else to print or write.
+void checkWrittenMaterials(const Options& options)
+{
+    if (options.writtenMaterials.empty()) return;
+    const std::pair<const char*, bool> others[] = {{"--names", options.names},
+                                                   {"-o", !options.outputs.empty()},
+                                                   {"--report", options.report},
+                                                   {"--stats", !options.statistics.empty()}};
+    for (const auto& [name, given] : others)
+        if (given) throw Failure(kUsage, std::string("--write-materials excludes ") + name);
+}
+
+/// Throws Failure(kUsage) if frames cannot be told apart by their files, or have one file for all.
+void checkFrames(const Options& options)
+{
+    if (!options.frames) return;
+    if (options.outputs.empty()) throw Failure(kUsage, "--frames needs an -o FILE");
+    if (!options.reference.empty()) throw Failure(kUsage, "--frames excludes --reference");
+    std::vector<std::string> files = options.outputs;
+    if (!options.statistics.empty()) files.push_back(options.statistics);
+    for (const std::string& file : files)
+        if (!frameName(file, 0))
+            throw Failure(kUsage, file + ": --frames needs one place for the number in the name, "
+                                         "as in out.%04d.png");
+}
+
+/// Throws Failure(kUsage) if passes cannot be kept, or joined, as the options ask.
+void checkParts(const Options& options)
+{
+    const auto exclude = [](const char* option, const char* other, bool given)
+    {
+        if (given) throw Failure(kUsage, std::string(option) + " excludes " + other);
+    };
+    const char* const part = options.checkpoint.empty() ? "--passes A:B" : "--checkpoint";
+    if (options.isPart())
+    {
+        exclude(part, "--frames", options.frames.has_value());
+        exclude(part, "--context", options.context != Context::None);
+    }
+    if (!options.checkpoint.empty() && formatOf(options.checkpoint) != Format::Exr)
+        throw Failure(kUsage, "--checkpoint " + options.checkpoint + ": the name ends in .exr");
+    if (options.merged.empty()) return;
+    exclude("--merge", "models", !options.models.empty());
+    exclude("--merge", "--aov", !options.channels.empty());
+    exclude("--merge", "--stats", !options.statistics.empty());
+    exclude("--merge", "--report", options.report);
+    if (options.outputs.empty() && options.checkpoint.empty())
+        throw Failure(kUsage, "--merge needs -o or --checkpoint");
+}
+
+} // namespace
+
+void checkOptions(const Options& options)
+{
+    checkParts(options);
+    if (options.models.empty() && options.merged.empty())
+        throw Failure(kUsage, "no MODEL given; --help shows the options");
+    checkWrittenMaterials(options);
+    checkFrames(options);
+    const bool lists =
+        options.names || !options.writtenMaterials.empty() || !options.checkpoint.empty();
+    if (options.outputs.empty() && !options.report && !lists)
+        throw Failure(kUsage, "no -o FILE given; --help shows the options");
+    if (options.width < 1 || options.height < 1 ||
+        double(options.width) * options.height > kMaxPixels)
+    {
+        throw Failure(kUsage,
+                      "--size: width and height are at least 1, their product at most 2^28");
+    }
+
+    bool exr = false;
+    for (const std::string& output : options.outputs)
+    {
+        const std::optional<Format> format = formatOf(output);
+        if (!format)
+            throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
+        exr = exr || *format == Format::Exr;
+    }
+    if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");
+}
+
+} // namespace osgRayTrace::app

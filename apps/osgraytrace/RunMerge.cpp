@@ -1,0 +1,53 @@
+// RunMerge.cpp - joins checkpoints that different machines have made. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "Checkpoint.h"
+#include "PictureFile.h"
+#include "Run.h"
+#include "apps/common/Failure.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+/// Returns all passes of the files together.
+Checkpoint joined(const std::vector<std::string>& files)
+{
+    Checkpoint all = readCheckpoint(files.front());
+    for (std::size_t i = 1; i < files.size(); ++i)
+    {
+        const std::string problem = all.sums.add(readCheckpoint(files[i]).sums);
+        if (!problem.empty())
+            throw Failure(kCannotLoad, "cannot join " + files[i] + " to " + files.front() +
+                                           (i > 1 ? " and those after it: " : ": ") + problem);
+    }
+    return all;
+}
+
+} // namespace
+
+int runMerge(const Options& options)
+{
+    checkFiles(options);
+    Checkpoint all = joined(options.merged);
+    const bool exposed =
+        std::any_of(options.assignments.begin(), options.assignments.end(),
+                    [](const auto& assignment) { return assignment.first == "exposure"; });
+    if (exposed) all.exposureEv = options.settings->getExposure();
+    if (!options.checkpoint.empty()) writeCheckpoint(options.checkpoint, all);
+
+    Picture picture;
+    picture.radiance = all.sums.getColorImage();
+    picture.display = all.sums.getDisplayImage(all.exposureEv, all.clearColor);
+    if (!picture.radiance || !picture.display)
+        throw Failure(kCannotLoad, "the checkpoints are damaged, or there is not enough memory");
+    const int code = writeAll(options, options.outputs, picture, {});
+    std::printf("%d passes: %s\n", all.sums.passCount(), all.sums.passes.c_str());
+    return code;
+}
+
+} // namespace osgRayTrace::app

@@ -1,0 +1,95 @@
+// DracoPrimitive.cpp - reads the extension's object and hands decoded bytes to accessors. Layer:
+// osgPlugins.
+// SPDX-License-Identifier: MIT
+#include "osgPlugins/gltf/DracoPrimitive.h"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace osgRayTrace::gltf
+{
+
+namespace
+{
+
+constexpr const char* kName = "KHR_draco_mesh_compression";
+constexpr std::uint64_t kTriangles = 4;
+constexpr std::uint64_t kIndices = std::numeric_limits<std::uint64_t>::max(); ///< no attribute's id
+constexpr std::uint64_t kWorkShare = 3; ///< times what the scene may still take
+
+/// Opens the accessors of the attributes that are compressed; all others are read as they stand.
+std::vector<DracoAttribute> attributesOf(const JsonPlace& primitive, const JsonPlace& extension,
+                                         AccessorReader& accessors)
+{
+    const JsonPlace all = primitive.at("attributes");
+    const JsonPlace ids = extension.at("attributes");
+    std::vector<DracoAttribute> result;
+    for (const auto& member : ids.value().items())
+    {
+        const std::uint64_t id = ids.at(member.key().c_str()).whole();
+        if (id > std::numeric_limits<std::uint32_t>::max())
+            ids.at(member.key().c_str()).refuse("is above 2^32 - 1");
+        const Accessor layout = accessors.layout(all.at(member.key().c_str()));
+        result.push_back({static_cast<std::uint32_t>(id), layout});
+        if (layout.count != result.front().layout.count)
+            layout.place.at("count").refuse("is not that of the primitive's other attributes");
+    }
+    if (result.empty()) ids.refuse("has no attributes");
+    return result;
+}
+
+ByteRange rangeOf(std::string&& bytes)
+{
+    const std::uint64_t size = bytes.size();
+    return {std::make_shared<MemoryBytes>(std::move(bytes)), 0, size};
+}
+
+} // namespace
+
+/// Refuses an accessor that two compressed meshes give values: arrays are kept by accessors.
+void DracoPrimitive::checkOrigin(const JsonPlace& index, const Origin& origin)
+{
+    const auto [held, isNew] = _origins.emplace(index.index(SIZE_MAX), origin);
+    if (!isNew && (held->second.view != origin.view || held->second.attribute != origin.attribute))
+        index.refuse("is the accessor of another compressed attribute as well");
+}
+
+void DracoPrimitive::open(const JsonPlace& primitive)
+{
+    _accessors->forgetDecoded();
+    const auto extension = primitive.extension(kName);
+    if (!extension || !readsDraco()) return;
+    Document& document = _accessors->document();
+    if (primitive.wholeOr("mode", kTriangles) != kTriangles)
+        primitive.at("mode").refuse("is not that of triangles, which alone are read compressed");
+    const JsonPlace indexPlace = primitive.at("indices");
+    const Accessor indices = _accessors->layout(indexPlace);
+    if (indices.components != 1) indices.place.refuse("has indices that are no scalars");
+    if (indices.count % 3 != 0) indices.place.at("count").refuse("is no multiple of 3");
+    const std::vector<DracoAttribute> attributes = attributesOf(primitive, *extension, *_accessors);
+
+    const std::size_t view = extension->at("bufferView").index(document.count("bufferViews"));
+    const ByteRange range = document.bufferView(view);
+    std::uint64_t decoded = std::uint64_t(indices.count) * indices.elementSize();
+    for (const DracoAttribute& attribute : attributes)
+        decoded += std::uint64_t(attribute.layout.count) * attribute.layout.elementSize();
+    document.take(range.size + decoded, *extension);
+    std::string compressed(static_cast<std::size_t>(range.size), '\0');
+    range.read(0, compressed.size(), compressed.data());
+
+    DracoMesh mesh = decodeDraco(compressed, indices, attributes, kWorkShare * document.room(),
+                                 extension->at("bufferView"));
+    checkOrigin(indexPlace, {view, kIndices});
+    _accessors->setDecoded(indexPlace.index(SIZE_MAX), rangeOf(std::move(mesh.indices)));
+    std::size_t i = 0;
+    for (const auto& member : extension->at("attributes").value().items())
+    {
+        const JsonPlace index = primitive.at("attributes").at(member.key().c_str());
+        checkOrigin(index, {view, attributes[i].id});
+        _accessors->setDecoded(index.index(SIZE_MAX), rangeOf(std::move(mesh.attributes[i])));
+        ++i;
+    }
+}
+
+} // namespace osgRayTrace::gltf

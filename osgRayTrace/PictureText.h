@@ -1,0 +1,32 @@
+// PictureText.h - a text that names a picture, for passes that are made apart. Layer: public API,
+// private.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgRayTrace/RayTraceSettings>
+
+#include <osg/Matrixd>
+
+#include <string>
+
+namespace osgRayTrace
+{
+
+namespace engine
+{
+struct Scene;
+}
+
+/// What a picture is of.
+struct PictureInputs
+{
+    const engine::Scene& scene;
+    const RayTraceSettings& settings;
+    osg::Matrixd view, projection;
+    int width, height;
+};
+
+/// Returns lines of a name and a value each: of all that decides on the bits of a pass.
+std::string pictureText(const PictureInputs& picture);
+
+} // namespace osgRayTrace

@@ -1,0 +1,141 @@
+// FootprintTest.cpp - photons in the pixel's own footprint, and discs at edges.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
+#include "tests/photons/KnownPatches.h"
+
+#include "osgRayTrace/photons/PhotonPasses.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr int kPixels = 16;
+
+RenderOptions causticOptions(uint32_t seed)
+{
+    RenderOptions options = optionsOf(IntegratorKind::PhotonCaustics, 2, seed);
+    options.photons = 1 << 14;
+    return options;
+}
+
+/// Returns the mean squares of the relative errors of a patch after each number of passes.
+std::vector<double> squaredErrors(const KnownPatch& patch, const RenderOptions& base,
+                                  const std::vector<int>& passes, uint32_t seeds)
+{
+    const auto traced = patch.builder.build();
+    const std::vector<double> expected = truth(patch, kPixels);
+    std::vector<double> squares(passes.size(), 0.0);
+    for (uint32_t seed = 0; seed < seeds; ++seed)
+    {
+        RenderSession session(std::make_shared<Workers>());
+        RenderOptions options = base;
+        options.seed = seed;
+        session.setScene(traced);
+        session.setView(viewOf(patch, kPixels));
+        session.setOptions(options);
+        for (std::size_t at = 0; at < passes.size(); ++at)
+        {
+            StopRule rule;
+            rule.passes = passes[at];
+            REQUIRE(session.render(rule).passes == passes[at]);
+            const std::vector<float> rgba = session.resolveRadiance();
+            for (std::size_t k = 0; k < expected.size(); ++k)
+                squares[at] += std::pow(double(rgba[4 * k + 1]) / expected[k] - 1.0, 2) /
+                               double(expected.size() * seeds);
+        }
+    }
+    return squares;
+}
+
+} // namespace
+
+// The fold of the nephroid is sharp in all of the patch's pixels that hold most of the error.
+TEST_CASE("footprints: the error on a sharp caustic falls as one over the passes",
+          "[photons][statistics]")
+{
+    const KnownPatch patch = causticPatch();
+    RenderOptions options = causticOptions(0);
+    const std::vector<int> passes = {16, 32, 64, 128};
+    const std::vector<double> squares = squaredErrors(patch, options, passes, 4);
+    std::vector<double> counts(passes.begin(), passes.end());
+    const double slope = logLogSlope(counts, squares);
+    options.photonRadius = static_cast<float>(patch.side / kPixels);
+    const double discSlope = logLogSlope(counts, squaredErrors(patch, options, passes, 2));
+    CAPTURE(slope, discSlope, squares.front(), squares.back());
+    CHECK(slope < -0.95); // steeper at first: the share of the first passes, by discs, falls, too
+    CHECK(discSlope > -0.8);
+}
+
+TEST_CASE("footprints: equal bits for any number of threads", "[photons]")
+{
+    const KnownPatch patch = causticPatch();
+    const auto traced = patch.builder.build();
+    for (const IntegratorKind kind : {IntegratorKind::PhotonCaustics, IntegratorKind::Sppm})
+    {
+        RenderOptions options = causticOptions(3);
+        options.integrator = kind;
+        const View view = viewOf(patch, 3 * kPixels);
+        const Picture many = render(traced, view, options, 16, 16);
+        CHECK(render(traced, view, options, 16, 2).rgba == many.rgba);
+        CHECK(render(traced, view, options, 16, 1).rgba == many.rgba);
+    }
+}
+
+TEST_CASE("footprints: views that share a photon map have the images that they have alone",
+          "[photons]")
+{
+    const KnownPatch patch = causticPatch();
+    const auto traced = patch.builder.build();
+    const View views[] = {viewOf(patch, kPixels),
+                          perspectiveView({0.2, 0.1, 1.1}, {0.5, 0.1, 0}, {0, 1, 0}, 25.0, 32, 32)};
+    RenderOptions options = causticOptions(5);
+    options.photonGuiding = false; // guided passes depend on all views
+    const auto photons = std::make_shared<PhotonPasses>();
+    std::vector<std::unique_ptr<RenderSession>> sessions;
+    for (const View& view : views)
+    {
+        sessions.push_back(std::make_unique<RenderSession>(std::make_shared<Workers>(1), photons));
+        sessions.back()->setScene(traced);
+        sessions.back()->setView(view);
+        sessions.back()->setOptions(options);
+    }
+    for (int pass = 1; pass <= 16; ++pass)
+        for (const auto& session : sessions)
+        {
+            StopRule rule;
+            rule.passes = pass;
+            session->render(rule);
+        }
+    for (std::size_t v = 0; v < sessions.size(); ++v)
+        CHECK(sessions[v]->resolveRadiance() == render(traced, views[v], options, 16, 1).rgba);
+}
+
+// The difference of the means has a standard error of 0.11 %; the bound is 2.7 of them.
+TEST_CASE("disc edges: SPPM loses no light in corners", "[photons][statistics]")
+{
+    const auto traced = cornellBox().build();
+    const View view = cornellView(32, 32);
+    const auto meansOf = [&](IntegratorKind kind, int passes, float radius)
+    {
+        Estimate mean;
+        for (uint32_t seed = 0; seed < 8; ++seed)
+        {
+            RenderOptions options = optionsOf(kind, 16, seed);
+            options.photons = 1 << 12;
+            options.photonRadius = radius;
+            mean.add(double(render(traced, view, options, passes).mean().y));
+        }
+        return mean;
+    };
+    const Estimate path = meansOf(IntegratorKind::Path, 256, 0.0f);
+    const Estimate sppm = meansOf(IntegratorKind::Sppm, 64, 0.0f);
+    const Estimate discs = meansOf(IntegratorKind::Sppm, 64, 30.0f);
+    const double loss = 1.0 - sppm.mean() / path.mean(), before = 1.0 - discs.mean() / path.mean();
+    CAPTURE(loss, before, sppm.standardError() / path.mean(), path.standardError() / path.mean());
+    CHECK(before > 0.004);
+    CHECK(std::abs(loss) < 0.003);
+}

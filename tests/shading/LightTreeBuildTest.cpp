@@ -1,0 +1,142 @@
+// LightTreeBuildTest.cpp - light trees that several threads build or refit, and lights of a range.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
+
+#include <cstring>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+/// Returns two shining spheres of some 12,000 triangles together, and a few other lights, so that
+/// some leaves are next to the root and subtrees are of very unequal size.
+SceneBuilder shining(Vec3 offset)
+{
+    SceneBuilder builder;
+    builder.addEmissive(sphereMesh(Vec3(3, 3, 3) + offset, 0.5f, 70), lamp(Vec3(0.5f)));
+    builder.addEmissive(sphereMesh(Vec3(-9, 1, 2), 0.1f, 30), lamp(Vec3(0.1f)));
+    builder.addQuadLight(Vec3(500, 0, 0), {1, 0, 0}, {0, 1, 0}, Vec3(1.0f));
+    Light point = pointLight(Vec3(0, -500, 0), Vec3(1.0f));
+    builder.addLight(point);
+    return builder;
+}
+
+Vec3 placeOf(const LightEmitter& e)
+{
+    return Vec3(e.corner[0], e.corner[1], e.corner[2]);
+}
+
+struct Asked
+{
+    Vec3 p, normal;
+    float u;
+};
+
+std::vector<Asked> randomPoints(int count)
+{
+    Uniform random(21);
+    std::vector<Asked> asked;
+    for (int i = 0; i < count; ++i)
+    {
+        const Vec3 p(random.between(-9, 9), random.between(-9, 9), random.between(-1, 9));
+        const Vec3 normal(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        asked.push_back({p, glm::normalize(normal), random()});
+    }
+    return asked;
+}
+
+/// Returns how many of the emitters, ways and choices of two trees differ in any bit.
+int differences(const LightTree& a, const LightTree& b, const std::vector<Asked>& points)
+{
+    int different = a.spread() != b.spread() || a.spreadAtBuild() != b.spreadAtBuild();
+    for (uint32_t k = 0; k < a.size(); ++k)
+    {
+        different += std::memcmp(&a.emitter(k), &b.emitter(k), sizeof(LightEmitter)) != 0;
+        different += a.numberOf(k) != b.numberOf(k);
+    }
+    for (const Asked& at : points)
+    {
+        const LightTree::Choice x = a.choose(at.p, at.normal, at.u),
+                                y = b.choose(at.p, at.normal, at.u);
+        different += x.emitter != y.emitter || x.pmf != y.pmf;
+        for (uint32_t k = 0; k < a.size(); k += 97)
+            different += a.pmf(at.p, at.normal, k) != b.pmf(at.p, at.normal, k);
+    }
+    return different;
+}
+
+} // namespace
+
+TEST_CASE("light tree: the same for any number of threads, built and refitted", "[shading]")
+{
+    const SceneBuilder builder = shining(Vec3(0.0f)), moved = shining(Vec3(0.2f, 0.1f, 0.0f));
+    const std::vector<Asked> points = randomPoints(200);
+    const LightTable alone(*builder.scene), movedAlone(*moved.scene, &alone);
+    REQUIRE(alone.tree()->size() > 10000);
+    CHECK(differences(*alone.tree(), *movedAlone.tree(), points) > 1000);
+    for (const int threads : {1, 2, 16})
+    {
+        const Workers workers(threads);
+        const LightTable table(*builder.scene, nullptr, nullptr, &workers);
+        const LightTable refitted(*moved.scene, &table, nullptr, &workers);
+        CAPTURE(threads);
+        CHECK(differences(*alone.tree(), *table.tree(), points) == 0);
+        CHECK(differences(*movedAlone.tree(), *refitted.tree(), points) == 0);
+        // What paths meet by chance is what the tree holds.
+        int wrong = 0;
+        for (uint32_t k = 0; k < table.tree()->size(); ++k)
+        {
+            const LightEmitter& e = refitted.tree()->emitter(k);
+            wrong += !e.isPoint() && refitted.emitterOf(e.light, e.primitive) != k;
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("light tree: the probabilities of a large tree sum to 1", "[shading]")
+{
+    const SceneBuilder builder = shining(Vec3(0.0f));
+    const Workers workers(2);
+    const LightTable table(*builder.scene, nullptr, nullptr, &workers);
+    const LightTree& tree = *table.tree();
+    for (const Asked& at : randomPoints(20))
+    {
+        double sum = 0.0;
+        for (uint32_t k = 0; k < tree.size(); ++k)
+            sum += tree.pmf(at.p, at.normal, k);
+        CHECK(sum == Approx(1.0).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("light tree: lights that are out of their range cost no samples", "[shading]")
+{
+    // Lamps of range 2 stand 1 apart along x, so that few of them are in range. Nodes are bounded
+    // by spheres: now and then one is chosen though none of its lamps is in range.
+    SceneBuilder builder;
+    for (int i = 0; i < 100; ++i)
+    {
+        Light light = pointLight(Vec3(static_cast<float>(i), 0.0f, 1.0f), Vec3(1.0f));
+        light.range = 2.0f;
+        builder.addLight(light);
+    }
+    const LightTable table(*builder.scene);
+    Uniform random(22);
+    constexpr int kPoints = 500;
+    double inRange = 0.0;
+    for (int i = 0; i < kPoints; ++i)
+    {
+        const Vec3 p(random.between(5, 95), 0.0f, 0.0f);
+        for (uint32_t k = 0; k < table.tree()->size(); ++k)
+        {
+            const float pmf = table.tree()->pmf(p, Vec3(0, 0, 1), k);
+            const float distance = glm::length(placeOf(table.tree()->emitter(k)) - p);
+            if (distance < 2.0f) inRange += pmf / kPoints;
+            if (distance < 1.999f) CHECK(pmf > 0.0f);
+        }
+    }
+    CHECK(inRange > 0.97);
+}
