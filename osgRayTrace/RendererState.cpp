@@ -43,6 +43,13 @@ osg::ref_ptr<const osg::Light> viewerHeadlight()
     return light;
 }
 
+/// Returns the text that names an image.
+std::string pictureName(const RenderedInputs& inputs)
+{
+    return pictureText({inputs.traced->scene(), *inputs.settings, inputs.view, inputs.projection,
+                        inputs.width, inputs.height});
+}
+
 } // namespace
 
 void Renderer::Implementation::render(engine::StopRule rule, double seconds,
@@ -60,9 +67,11 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
     session->setOptions(engine::renderOptionsFromSettings(*settings));
     session->setFirstPass(firstPass);
-    if (nextSums) resume();
     // The session would forget the cancellation at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
+    const RenderedInputs inputs{
+        traced, new RayTraceSettings(*settings), viewMatrix, projectionMatrix, width, height};
+    if (nextSums) session->resume(checkedSums(inputs));
 
     engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
     const auto begin = std::chrono::steady_clock::now();
@@ -74,41 +83,39 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
             const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
             return tiles > 0 && spent.count() + ahead >= seconds;
         };
-    const auto keepGoing = [this, &progress](const engine::RenderProgress& result)
+    const auto keepGoing = [&](const engine::RenderProgress& result)
     {
+        rendered = inputs;
         if (cancelled) return false;
         if (!progress) return true;
         engine::setImageStatistics(statistics, result);
         return progress(statistics);
     };
-    engine::setImageStatistics(statistics, session->render(rule, keepGoing));
+    const engine::RenderProgress result = session->render(rule, keepGoing);
+    if (result.status.code != StatusCode::InvalidView) rendered = inputs;
+    engine::setImageStatistics(statistics, result);
 }
 
-/// Hands the sums that render() is to begin with to the session.
-void Renderer::Implementation::resume()
+/// Returns the sums that render() is to begin with, which are used up. Throws EngineError if they
+/// are those of another picture, or damaged.
+engine::PassSums Renderer::Implementation::checkedSums(const RenderedInputs& inputs)
 {
     const PassSums sums = std::move(*nextSums);
     nextSums.reset();
-    const std::string problem = whyNotOf(sums, pictureName());
+    const std::string problem = whyNotOf(sums, pictureName(inputs));
     if (!problem.empty()) throw EngineError(StatusCode::InvalidView, problem);
     std::optional<engine::PassSums> own = engineSums(sums);
     if (!own) throw EngineError(StatusCode::InvalidView, "the sums of passes are damaged");
-    session->resume(std::move(*own));
-}
-
-/// Returns the text that names what the next render() of the session makes.
-std::string Renderer::Implementation::pictureName() const
-{
-    return pictureText({traced->scene(), *settings, viewMatrix, projectionMatrix, width, height});
+    return std::move(*own);
 }
 
 PassSums Renderer::Implementation::passSums() const
 {
     std::optional<engine::PassSums> sums = session ? session->passSums() : std::nullopt;
-    if (!sums || sums->passes.empty()) return {};
+    if (!sums || sums->passes.empty() || !rendered.traced) return {};
     PassSums result = publicSums(std::move(*sums));
-    result.picture = pictureName();
-    result.displayReferred = traced->scene().displayReferred;
+    result.picture = pictureName(rendered);
+    result.displayReferred = rendered.traced->scene().displayReferred;
     return result;
 }
 

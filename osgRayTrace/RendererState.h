@@ -37,6 +37,15 @@ struct ConversionKey
     }
 };
 
+/// Holds what the session's image was made of, which may have changed since.
+struct RenderedInputs
+{
+    std::shared_ptr<const engine::TracedScene> traced;
+    osg::ref_ptr<const RayTraceSettings> settings;
+    osg::Matrixd view, projection;
+    int width = 0, height = 0;
+};
+
 struct Renderer::Implementation
 {
     osg::ref_ptr<osg::Node> scene;
@@ -63,6 +72,7 @@ struct Renderer::Implementation
     ConversionKey convertedFor;
     std::shared_ptr<const engine::TracedScene> traced;
     std::unique_ptr<engine::RenderSession> session;
+    RenderedInputs rendered; ///< of the session's image
     engine::Denoiser denoiser;
 
     /// Guards the session between cancel(), on any thread, and render(), which replaces the
@@ -72,8 +82,7 @@ struct Renderer::Implementation
 
     void render(engine::StopRule rule, double seconds,
                 const std::function<bool(const Statistics&)>& progress);
-    void resume();
-    std::string pictureName() const;
+    engine::PassSums checkedSums(const RenderedInputs& inputs);
     PassSums passSums() const;
     void placeHomeView();
     void prepareSession();

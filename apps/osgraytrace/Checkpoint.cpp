@@ -125,9 +125,8 @@ std::string textOf(const ExrPlanes& planes, const char* name)
     return text == planes.texts.end() ? std::string() : text->second;
 }
 
-} // namespace
-
-void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
+/// Returns the planes of a checkpoint. Throws std::bad_alloc.
+ExrPlanes planesOf(const Checkpoint& checkpoint)
 {
     const PassSums& sums = checkpoint.sums;
     const std::size_t pixels = std::size_t(sums.width) * std::size_t(sums.height);
@@ -141,8 +140,22 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
                     {kPasses, sums.passes},
                     {kPicture, sums.picture},
                     {kShown, shownText(checkpoint)}};
-    const std::string problem = engine::writeExrPlanes(path, planes);
-    if (!problem.empty()) throw cannotWrite(path, problem);
+    return planes;
+}
+
+} // namespace
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
+{
+    try
+    {
+        const std::string problem = engine::writeExrPlanes(path, planesOf(checkpoint));
+        if (!problem.empty()) throw cannotWrite(path, problem);
+    }
+    catch (const std::bad_alloc&)
+    {
+        throw cannotWrite(path, "there is not enough memory");
+    }
 }
 
 Checkpoint readCheckpoint(const std::string& path)

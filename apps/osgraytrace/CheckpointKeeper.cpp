@@ -6,6 +6,7 @@
 #include "Checkpoint.h"
 #include "Run.h"
 #include "apps/common/Failure.h"
+#include "apps/common/Output.h"
 #include "apps/common/Program.h"
 
 #include <filesystem>
@@ -36,25 +37,28 @@ void CheckpointKeeper::keepIfDue()
     if (_options.checkpoint.empty()) return;
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - _kept;
     if (since.count() < _options.interval) return;
+    keep();
+}
+
+int CheckpointKeeper::keep()
+{
+    if (_options.checkpoint.empty()) return kDone;
+    int code = kDone;
     try
     {
-        keep();
+        PassSums sums = _renderer.getPassSums();
+        if (sums.passes.empty() && _renderer.getStatistics().passes > 0)
+            throw cannotWrite(_options.checkpoint, "there is not enough memory");
+        if (!sums.passes.empty())
+            writeCheckpoint(_options.checkpoint,
+                            {std::move(sums), _options.settings->getExposure(), _clearColor});
     }
     catch (const Failure& failure)
     {
-        reportFailure(kProgram, failure);
-        _kept = std::chrono::steady_clock::now();
+        code = reportFailure(kProgram, failure);
     }
-}
-
-void CheckpointKeeper::keep()
-{
-    if (_options.checkpoint.empty()) return;
-    PassSums sums = _renderer.getPassSums();
-    if (!sums.passes.empty())
-        writeCheckpoint(_options.checkpoint,
-                        {std::move(sums), _options.settings->getExposure(), _clearColor});
     _kept = std::chrono::steady_clock::now();
+    return code;
 }
 
 } // namespace osgRayTrace::app

@@ -25,8 +25,9 @@ public:
     /// Writes the file if the interval is over. A failure is printed: there may be room later.
     void keepIfDue();
 
-    /// Writes the file if there are whole passes. Throws Failure(kCannotWrite).
-    void keep();
+    /// Writes the file if there are whole passes. Returns the exit code: a failure is printed, as
+    /// the picture is there still.
+    int keep();
 
 private:
     const Options& _options;

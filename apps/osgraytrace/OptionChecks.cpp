@@ -20,6 +20,7 @@ void checkWrittenMaterials(const Options& options)
     const std::pair<const char*, bool> others[] = {{"--names", options.names},
                                                    {"-o", !options.outputs.empty()},
                                                    {"--report", options.report},
+                                                   {"--checkpoint", !options.checkpoint.empty()},
                                                    {"--stats", !options.statistics.empty()}};
     for (const auto& [name, given] : others)
         if (given) throw Failure(kUsage, std::string("--write-materials excludes ") + name);
@@ -59,6 +60,12 @@ void checkParts(const Options& options)
     exclude("--merge", "--aov", !options.channels.empty());
     exclude("--merge", "--stats", !options.statistics.empty());
     exclude("--merge", "--report", options.report);
+    exclude("--merge", "--reference", !options.reference.empty());
+    exclude("--merge", "--frames", options.frames.has_value());
+    exclude("--merge", "--context", options.context != Context::None);
+    exclude("--merge", "--names", options.names);
+    for (const auto& [name, value] : options.assignments)
+        exclude("--merge", ("--" + name).c_str(), name != "exposure");
     if (options.outputs.empty() && options.checkpoint.empty())
         throw Failure(kUsage, "--merge needs -o or --checkpoint");
 }

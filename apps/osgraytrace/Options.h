@@ -66,6 +66,9 @@ struct Options
 
     /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
     bool isPart() const { return !checkpoint.empty() || firstPass > 0; }
+
+    /// Returns how many passes the picture has if no other limit ends it.
+    int mostPasses() const { return settings->getMaxPasses() - firstPass; }
 };
 
 /// Takes over the settings that a scene brings with it; settings that the command line states win.

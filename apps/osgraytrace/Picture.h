@@ -23,6 +23,7 @@ struct Picture
     osg::ref_ptr<osg::Image> display;  ///< tone mapped, GL_RGBA, GL_UNSIGNED_BYTE
     std::map<std::string, osg::ref_ptr<osg::Image>> channels; ///< channels that the options ask for
     Statistics statistics;
+    int code = 0; ///< exit code of what failed beside the picture, which is whole
 };
 
 /// Renders with osgRayTrace::Renderer. Throws Failure(kCannotRender).

@@ -66,7 +66,7 @@ void Progress::show(const Statistics& statistics)
 /// passes.
 double Progress::fraction(const Statistics& statistics) const
 {
-    double done = double(statistics.passes) / _options.settings->getMaxPasses();
+    double done = double(statistics.passes) / _options.mostPasses();
     if (_options.seconds > 0.0) done = std::max(done, statistics.renderSeconds / _options.seconds);
     if (_options.relativeError > 0.0 && statistics.relativeError > 0.0)
     {

@@ -42,7 +42,7 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
             });
         rendered = renderer->render(options.seconds, options.relativeError, show);
     }
-    if (rendered) keeper.keep();
+    const int kept = rendered ? keeper.keep() : kDone;
     const bool begun = renderer->getStatistics().imageShare > 0.0;
     if (isInterrupted() && !begun)
         throw Failure(interruptionCode(),
@@ -51,6 +51,7 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
         throw Failure(kCannotRender, renderer->getStatistics().message);
 
     Picture picture;
+    picture.code = kept;
     picture.radiance = renderer->getColorImage();
     picture.display = renderer->getDisplayImage();
     if (!picture.radiance || !picture.display)

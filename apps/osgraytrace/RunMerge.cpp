@@ -38,14 +38,13 @@ int runMerge(const Options& options)
         std::any_of(options.assignments.begin(), options.assignments.end(),
                     [](const auto& assignment) { return assignment.first == "exposure"; });
     if (exposed) all.exposureEv = options.settings->getExposure();
-    if (!options.checkpoint.empty()) writeCheckpoint(options.checkpoint, all);
-
     Picture picture;
     picture.radiance = all.sums.getColorImage();
     picture.display = all.sums.getDisplayImage(all.exposureEv, all.clearColor);
     if (!picture.radiance || !picture.display)
         throw Failure(kCannotLoad, "the checkpoints are damaged, or there is not enough memory");
     const int code = writeAll(options, options.outputs, picture, {});
+    if (!options.checkpoint.empty()) writeCheckpoint(options.checkpoint, all);
     std::printf("%d passes: %s\n", all.sums.passCount(), all.sums.passes.c_str());
     return code;
 }

@@ -41,7 +41,7 @@ void printMeasures(const ErrorMeasures& measures)
 void reportInterruption(const Options& options, const Statistics& statistics)
 {
     std::string left = std::to_string(statistics.passes) + " of at most " +
-                       std::to_string(options.settings->getMaxPasses()) + " passes are written";
+                       std::to_string(options.mostPasses()) + " passes are written";
     if (statistics.passes == 0)
     {
         const int percent = static_cast<int>(100.0 * statistics.imageShare);
@@ -172,7 +172,8 @@ int runPicture(Options options)
     const std::string missing = missingParts(options, picture.statistics);
     if (!missing.empty()) std::puts(missing.c_str());
     if (isInterrupted()) reportInterruption(options, picture.statistics);
-    return written != kDone ? written : code;
+    if (written != kDone) return written;
+    return picture.code != kDone ? picture.code : code;
 }
 
 } // namespace osgRayTrace::app

@@ -3,9 +3,11 @@
 #include "osgPlugins/exr/ExrPlanes.h"
 
 #include "osgPlugins/exr/ExrError.h"
+#include "osgPlugins/exr/ExrFile.h"
 #include "osgPlugins/exr/ExrHeader.h"
 #include "osgPlugins/exr/ExrStreams.h"
 #include "osgRayTrace/base/OutputFile.h"
+#include "osgRayTrace/base/TextFile.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -15,7 +17,6 @@
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -25,8 +26,6 @@ namespace osgRayTrace::engine
 
 namespace
 {
-
-constexpr long long kMaxValues = 1LL << 31;
 
 /// A row of a channel, of floats or integers.
 struct Row
@@ -72,11 +71,6 @@ void makeChannels(const Imf::ChannelList& list, ExrPlanes& planes)
 {
     const auto pixels = static_cast<std::size_t>(planes.picture.width) *
                         static_cast<std::size_t>(planes.picture.height);
-    long long count = 0;
-    for (auto it = list.begin(); it != list.end(); ++it)
-        ++count;
-    if (static_cast<long long>(pixels) * count > kMaxValues)
-        throw std::runtime_error("so many channels of this size are too large");
     for (auto it = list.begin(); it != list.end(); ++it)
     {
         if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
@@ -93,6 +87,9 @@ ExrPlanes readPlanes(Imf::IStream& stream)
 {
     Imf::InputFile file(stream);
     if (!file.isComplete()) throw std::runtime_error("the file is not complete");
+    // Without compression the length of the file bounds the memory that its channels take.
+    if (file.header().compression() != Imf::NO_COMPRESSION)
+        throw std::runtime_error("the file is compressed, as no checkpoint is");
     checkWindow(file.header());
     ExrPlanes planes;
     const int width = file.header().dataWindow().max.x + 1;
@@ -157,16 +154,6 @@ std::string checkPlanes(const ExrPlanes& planes)
     return "";
 }
 
-/// Writes a file; throws.
-void writeFile(const std::string& path, const ExrPlanes& planes)
-{
-    errno = 0;
-    std::ofstream stream(path, std::ios::binary);
-    if (stream) writePlanes(stream, planes);
-    stream.close();
-    if (!stream) throw std::runtime_error(errno ? std::strerror(errno) : "a write failed");
-}
-
 } // namespace
 
 const ExrIntegers* ExrPlanes::find(const std::string& name) const
@@ -181,6 +168,8 @@ std::string readExrPlanes(const std::string& path, ExrPlanes& planes)
     return caught(
         [&]() -> std::string
         {
+            const std::string irregularity = irregularityOf(path);
+            if (!irregularity.empty()) return irregularity;
             std::ifstream stream(path, std::ios::binary);
             if (!stream) return "the file cannot be opened";
             const std::string problem = checkExrHeader(stream);
@@ -199,7 +188,10 @@ std::string writeExrPlanes(const std::string& path, const ExrPlanes& planes)
             const std::string problem = checkPlanes(planes);
             if (!problem.empty()) return problem;
             writeFileWhole(path,
-                           [&](const std::string& temporary) { writeFile(temporary, planes); });
+                           [&](const std::string& temporary) {
+                               writeExrFile(temporary, [&](std::ostream& stream)
+                                            { writePlanes(stream, planes); });
+                           });
             return "";
         });
 }

@@ -29,7 +29,8 @@ struct ExrPlanes
 
 // Each function returns an empty string, or one sentence that says what is wrong; none throws.
 
-/// Reads all channels of a file whose pixels fill its display window, with the limits of readExr.
+/// Reads all channels of a regular file without compression whose pixels fill its display window,
+/// with the limits of size of readExr.
 std::string readExrPlanes(const std::string& path, ExrPlanes& planes);
 
 /// Writes the whole file without compression, or leaves the file that was there before: see

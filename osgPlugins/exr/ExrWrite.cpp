@@ -1,6 +1,7 @@
 // ExrWrite.cpp - checks channels and writes them row by row. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/exr/ExrError.h"
+#include "osgPlugins/exr/ExrFile.h"
 #include "osgPlugins/exr/ExrHeader.h"
 #include "osgPlugins/exr/ExrImage.h"
 #include "osgPlugins/exr/ExrStreams.h"
@@ -12,10 +13,7 @@
 #include <ImfOutputFile.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -63,8 +61,7 @@ half toHalf(float value)
     return half(std::clamp(value, -static_cast<float>(HALF_MAX), static_cast<float>(HALF_MAX)));
 }
 
-/// Writes an image; throws. Only the stream knows whether the table of offsets, which OpenEXR
-/// writes last, got there.
+/// Writes an image; throws.
 void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression compression)
 {
     Imf::Header header(image.width, image.height);
@@ -106,30 +103,6 @@ void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression comp
     }
 }
 
-/// Writes a file; throws.
-void writeFile(const std::string& path, const ExrImage& image, ExrCompression compression)
-{
-    errno = 0;
-    std::ofstream stream(path, std::ios::binary);
-    const auto check = [&stream]
-    {
-        if (stream) return;
-        throw std::runtime_error(errno ? std::strerror(errno) : "the file cannot be written");
-    };
-    check();
-    try
-    {
-        writeImage(stream, image, compression);
-    }
-    catch (const std::exception&)
-    {
-        check(); // OpenEXR's own words do not tell why a write failed
-        throw;
-    }
-    stream.close();
-    check();
-}
-
 } // namespace
 
 const ExrChannel* ExrImage::find(const std::string& name) const
@@ -146,8 +119,12 @@ std::string writeExr(const std::string& path, const ExrImage& image, ExrCompress
         {
             const std::string problem = checkImage(image);
             if (!problem.empty()) return problem;
-            writeFileWhole(path, [&](const std::string& temporary)
-                           { writeFile(temporary, image, compression); });
+            writeFileWhole(path,
+                           [&](const std::string& temporary)
+                           {
+                               writeExrFile(temporary, [&](std::ostream& stream)
+                                            { writeImage(stream, image, compression); });
+                           });
             return "";
         });
 }

@@ -149,6 +149,7 @@ int ExactSums::add(std::size_t tile, int half, int passes, const RgbaLanes* valu
 {
     const float* floats = values[0].r.v;
     int64_t* sums = low(tile, half);
+    if (passes == 0) _high[index(tile, half)].clear(); // of the image before
     if (passes > 0 && passes % kCarryPasses == 0) carry(tile, half);
     if (areSmall(floats))
     {

@@ -139,6 +139,7 @@ void RenderSession::clear()
     SessionState& session = *_state;
     session.scene.reset();
     session.filmScene.reset();
+    session.firstSums.reset();
     session.samples = {};
     session.hasSamples = false;
     session.surfaces = session.lastSurfaces = SurfaceMap();

@@ -230,12 +230,13 @@ RenderProgress SessionState::run(const StopRule& rule,
     if (filmFirstPass > 0 || progress.passes > 0)
         photons.choose(filmScene, contextOfPass(0), *workers);
     const auto isLeft = [&] { return filmPasses.firstMissing(filmFirstPass) < rule.passes; };
+    int added = 0; // passes that the film has got from this call
     for (int newPasses = 0; newPasses < rule.newPasses && isLeft(); ++newPasses)
     {
         const NextPass next = nextPass();
         const int pass = next.number;
         if (progress.newTiles >= rule.newTiles) break;
-        if (newPasses > 0 && secondsSince(start) >= rule.seconds) break;
+        if (added > 0 && secondsSince(start) >= rule.seconds) break;
         if (newPasses > 0 && rule.shouldStop &&
             rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
             break;
@@ -256,6 +257,7 @@ RenderProgress SessionState::run(const StopRule& rule,
         progress.passes = film.passes();
         progress.imageShare = imageShare();
         if (whole) finishPass(context, next, std::move(passesAfter));
+        if (whole && !next.isLearning) ++added;
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
         if (wantsError) progress.error = estimateError();

@@ -81,6 +81,8 @@ bool SessionState::begin()
     }
     if (!restart) return true;
 
+    std::optional<PassSums> sums = std::move(firstSums); // a render that fails forgets them
+    firstSums.reset();
     const std::optional<CameraRays> rays =
         cameraRays(view, scene->scene().origin, scene->scene().unit);
     if (!rays)
@@ -89,9 +91,8 @@ bool SessionState::begin()
                            "the view has no size, or matrices that cannot be inverted"};
         return false;
     }
-    if (firstSums && (firstSums->width != view.width || firstSums->height != view.height))
+    if (sums && (sums->width != view.width || sums->height != view.height))
     {
-        firstSums.reset();
         progress.status = {StatusCode::InvalidView, "the sums of passes are of another size"};
         return false;
     }
@@ -100,7 +101,7 @@ bool SessionState::begin()
     std::vector<EnvironmentStratum> newStrata = strataOf(*scene, options);
     const bool continues = continuesView && sameSize && view == filmView;
     if (!continues && film.passes() > 0 && surfaces.finished) std::swap(surfaces, lastSurfaces);
-    resetFilm(continues);
+    resetFilm(continues, sums ? &*sums : nullptr);
     photons.reset(film.tileCount());
     camera = *rays;
     filmScene = scene;
@@ -131,8 +132,8 @@ bool SessionState::begin()
 }
 
 /// Clears the film for the wanted view. If the view continues, tiles without a pass have the depths
-/// and the surfaces that they had, and grow older.
-void SessionState::resetFilm(bool continues)
+/// and the surfaces that they had, and grow older. sums: what the film begins with; null: nothing.
+void SessionState::resetFilm(bool continues, const PassSums* sums)
 {
     if (continues)
         for (int tile = 0; tile < film.tileCount(); ++tile)
@@ -145,11 +146,10 @@ void SessionState::resetFilm(bool continues)
     filmFirstPass = firstPass;
     tracedPasses = ownPasses = 0;
     learntPasses.clear();
-    if (firstSums)
+    if (sums)
     {
-        setFilm(*firstSums, film);
-        filmPasses = firstSums->passes;
-        firstSums.reset();
+        setFilm(*sums, film);
+        filmPasses = sums->passes;
     }
     surfaces.finished = false;
     filmContinues = continues;

@@ -48,7 +48,7 @@ struct SessionState
                        const DisplayTarget* display);
     void finishSurfaces();
     void findSurfaces();
-    void resetFilm(bool continues);
+    void resetFilm(bool continues, const PassSums* sums);
     std::vector<std::size_t> firstPassOrder(const TileOrder& order,
                                             const std::vector<uint8_t>& firstTiles) const;
     void resolve(const DisplayTarget& display, bool over) const;

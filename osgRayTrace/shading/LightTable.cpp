@@ -282,9 +282,9 @@ LightTable::Choice LightTable::chooseAreaLight(float u) const
 
 LightTable::Choice LightTable::chooseDeltaLight(float u) const
 {
-    if (_deltaLights.empty()) return {};
+    if (lightsBesideTree().empty()) return {};
     const std::size_t k = pick(_deltaCumulative, u);
-    return {_deltaLights[k], _deltaCumulative[k] - (k ? _deltaCumulative[k - 1] : 0.0f)};
+    return {lightsBesideTree()[k], _deltaCumulative[k] - (k ? _deltaCumulative[k - 1] : 0.0f)};
 }
 
 std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float v) const

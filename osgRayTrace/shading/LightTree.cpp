@@ -44,6 +44,7 @@ void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
         joinedPairs[subtrees[k].pair] = parts[k];
         _spread += parts[k].spread;
         _areasOnly &= !parts[k].points;
+        _hasRectangles |= parts[k].rectangles;
     }
     for (std::size_t k = _pairs->top.size(); k-- > 0;)
     {
@@ -52,6 +53,7 @@ void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
         joinedPairs[pair] = top;
         _spread += top.spread;
         _areasOnly &= !top.points;
+        _hasRectangles |= top.rectangles;
     }
 }
 
@@ -80,7 +82,7 @@ LightTree::Joined LightTree::setSubtree(const LightPairs::Subtree& subtree,
     for (uint32_t k = 0; k <= subtree.pairs; ++k)
     {
         setLeaf(subtree.leaf + k, emitters);
-        all.points |= _emitters[subtree.leaf + k].isPoint();
+        all.addLeaf(_emitters[subtree.leaf + k]);
     }
     std::vector<LightBounds> pairs(subtree.pairs);
     for (uint32_t k = subtree.pairs; k-- > 0;)
@@ -113,7 +115,7 @@ LightTree::Joined LightTree::setTop(uint32_t pair, const LightEmitters& emitters
         {
             const uint32_t number = next & ~LightPairs::kLeaf;
             setLeaf(number, emitters);
-            all.points |= _emitters[number].isPoint();
+            all.addLeaf(_emitters[number]);
             both[side] = boundsOf(_emitters[number]);
         }
         else

@@ -54,6 +54,9 @@ public:
     const LightEmitter& emitter(uint32_t number) const { return _emitters[number]; }
     const LightEmitter* emitters() const { return _emitters.data(); }
 
+    /// Returns whether some emitter may be sampled by solid angle.
+    bool hasRectangles() const { return _hasRectangles; }
+
     /// Returns the number of the emitter that had this index in the constructor's list.
     uint32_t numberOf(std::size_t index) const { return _numbers[index]; }
 
@@ -85,9 +88,16 @@ public:
 private:
     struct Joined ///< what is known of a pair that is set
     {
-        LightBounds bounds;  ///< of the lights below
-        double spread = 0.0; ///< of the nodes that were set with it
-        bool points = false; ///< whether leaves that were set with it are point lights
+        LightBounds bounds;      ///< of the lights below
+        double spread = 0.0;     ///< of the nodes that were set with it
+        bool points = false;     ///< whether leaves that were set with it are point lights
+        bool rectangles = false; ///< whether leaves that were set with it are rectangles
+
+        void addLeaf(const LightEmitter& emitter)
+        {
+            points |= emitter.isPoint();
+            rectangles |= (emitter.flags & kRectangle) != 0;
+        }
     };
     using JoinedPairs = std::unordered_map<uint32_t, Joined>;
 
@@ -104,6 +114,7 @@ private:
     UnclearedArray<uint32_t> _parents;   ///< by pair: the node above it; kInvalid at the root
     UnclearedArray<uint32_t> _leafNodes; ///< by emitter: its node
     bool _areasOnly = true;              ///< no emitter is a point light
+    bool _hasRectangles = false;         ///< some emitter is a rectangle
     double _spread = 0.0, _spreadAtBuild = 0.0;
 };
 

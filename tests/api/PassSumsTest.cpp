@@ -57,9 +57,11 @@ TEST_CASE("pass sums: a renderer goes on from those of its picture, and from no 
     CHECK(sums.picture == whole.picture);
 
     renderer->getSettings()->setSeed(7);
+    CHECK(renderer->getPassSums().picture == whole.picture); // of the last render
     renderer->setPassSums(whole);
     CHECK_FALSE(renderer->render());
     CHECK_THAT(renderer->getStatistics().message, Contains("seed 0, and seed 7"));
+    CHECK(renderer->getPassSums().picture == whole.picture);
     REQUIRE(renderer->render()); // without these sums
     CHECK(renderer->getStatistics().passes == 4);
 
@@ -105,4 +107,23 @@ TEST_CASE("pass sums: there are none before a render, and none of a cut one", "[
     REQUIRE(renderer->render(1e-6)); // ends after the first pass, which is whole
     CHECK(renderer->getStatistics().passes == 1);
     CHECK(renderer->getPassSums().passes == "0");
+}
+
+TEST_CASE("pass sums: those of a render that does not begin are not those of the next", "[api]")
+{
+    const osg::ref_ptr<osg::Group> scene = room();
+    const auto renderer = rendererOf(scene.get());
+    const osg::Matrixd projection = renderer->getProjectionMatrix();
+    renderer->setProjectionMatrix(osg::Matrixd::scale(0.0, 1.0, 1.0));
+    REQUIRE_FALSE(renderer->render());
+    const std::string message = renderer->getStatistics().message;
+    CHECK_THAT(message, Contains("cannot be inverted"));
+    CHECK(renderer->getPassSums().passes.empty());
+
+    // The sums are used up by the render that fails after they were found right.
+    renderer->setProjectionMatrix(projection);
+    renderer->getSettings()->setMaxPasses(2);
+    REQUIRE(renderer->render());
+    CHECK(renderer->getStatistics().passes == 2);
+    CHECK(renderer->getPassSums().passes == "0-1");
 }

@@ -194,7 +194,14 @@ TEST_CASE("checkpoint: options that exclude each other are named", "[apps]")
         {renderOf("--checkpoint x.exr --radius-schedule local --integrator sppm"),
          "each pass depends on all before"},
         {"--merge x.exr", "--merge needs -o or --checkpoint"},
-        {"--merge x.exr -o x.png --report", "--report"}};
+        {"--merge x.exr -o x.png --report", "--report"},
+        {"--merge x.exr -o x.png --denoise filter", "--merge excludes --denoise"},
+        {"--merge x.exr -o x.png --context osmesa", "--merge excludes --context"},
+        {"--merge x.exr -o x.png --names", "--merge excludes --names"},
+        {"--merge x.exr -o %d.png --frames 0:1", "--merge excludes --frames"},
+        {"--merge x.exr -o x.png --reference x.exr", "--merge excludes --reference"},
+        {renderOf("--checkpoint x.exr --write-materials x.json"),
+         "--write-materials excludes --checkpoint"}};
     for (const auto& [arguments, reason] : cases)
     {
         CAPTURE(arguments);
@@ -203,4 +210,44 @@ TEST_CASE("checkpoint: options that exclude each other are named", "[apps]")
         CHECK_THAT(outcome.errors, Contains(reason));
         CHECK(folder.fileNames().empty());
     }
+}
+
+TEST_CASE("checkpoint: one that cannot be written does not cost the picture", "[apps]")
+{
+    // 40 x 24 pixels take 79 KiB of sums, and the limit is 8 KiB.
+    const TemporaryFolder folder;
+    const Outcome outcome = osgraytrace(folder, renderOf("--passes 2 --checkpoint a.exr -o a.png"),
+                                        "trap '' XFSZ && ulimit -f 8 &&");
+    CHECK(outcome.exitCode == 4);
+    CHECK_THAT(outcome.errors, Contains("cannot write a.exr: File too large"));
+    CHECK(folder.fileNames() == Names{"a.png"});
+}
+
+TEST_CASE("checkpoint: each start makes a pass at least, however short its time", "[apps]")
+{
+    // Photons of all passes depend on the first sixteen, which a part has to trace, too.
+    const TemporaryFolder folder;
+    const std::string arguments =
+        renderOf("--integrator sppm --photons 2000 --passes 20:22 --checkpoint a.exr --time 1e-6");
+    for (const char* passes : {"20", "20-21"})
+    {
+        const Outcome outcome = osgraytrace(folder, arguments);
+        CAPTURE(outcome.errors);
+        CHECK(outcome.exitCode == 0);
+        CHECK_THAT(osgraytrace(folder, "--merge a.exr -o a.png").output,
+                   Contains(std::string("passes: ") + passes));
+    }
+}
+
+TEST_CASE("checkpoint: pipes and compressed files are none", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(std::system(("mkfifo '" + folder / "pipe.exr" + "'").c_str()) == 0);
+    const Outcome pipe = osgraytrace(folder, "--merge pipe.exr -o x.png");
+    CHECK(pipe.exitCode == 2);
+    CHECK_THAT(pipe.errors, Contains("is a pipe"));
+    REQUIRE(osgraytrace(folder, renderOf("--passes 1 -o plain.exr")).exitCode == 0);
+    const Outcome plain = osgraytrace(folder, "--merge plain.exr -o x.png");
+    CHECK(plain.exitCode == 2);
+    CHECK_THAT(plain.errors, Contains("is compressed, as no checkpoint is"));
 }

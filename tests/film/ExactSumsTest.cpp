@@ -217,3 +217,19 @@ TEST_CASE("film: the error of halves of different sizes is that of their mean",
     const auto n = double(ExactSums::kValues);
     CHECK(std::fabs(squares / n * 8.0 - 1.0) < 4.0 * std::sqrt(2.0 / n));
 }
+
+TEST_CASE("exact sums: a film that begins anew forgets what was bright before", "[film]")
+{
+    std::vector<Pass> passes(1);
+    const auto fill = [&passes](float value)
+    { std::fill_n(floatsOf(passes[0].values), ExactSums::kValues, value); };
+    fill(4096.0f);
+    const auto film = filmOf(passes, {0});
+    film->reset(13, 9, FilmSums::Exact);
+    fill(1.0f);
+    film->addPass(0, 0, passes[0].values);
+    TileRgba mean;
+    film->mean(0, mean);
+    CHECK(floatsOf(mean)[5] == 1.0f);
+    CHECK(film->exactSums().sum(0, 0, 5) == ExactSum{int64_t(1) << 40, 0});
+}

@@ -158,3 +158,30 @@ TEST_CASE("many lights: the progress says how many are sampled", "[integrators]"
     CHECK(suns.deltaLights == 300);
     CHECK(suns.sampledDeltaLights == 256);
 }
+
+TEST_CASE("many lights: suns beside a tree of lamps all shine", "[integrators][statistics]")
+{
+    // Lamps come first, and more suns than a pass samples: those are chosen from their own list.
+    constexpr int kLamps = 40, kSuns = 300;
+    SceneBuilder builder = whiteFloor();
+    for (int i = 0; i < kLamps; ++i)
+        builder.addLight(pointLight(placeOf(i), Vec3(brightnessOf(i))));
+    double expected = radianceOfPoints(kLamps);
+    for (int i = 0; i < kSuns; ++i)
+    {
+        const double angle = 0.004 * i;
+        Light sun;
+        sun.kind = LightKind::Directional;
+        sun.direction = Vec3(std::sin(angle), 0.0, -std::cos(angle));
+        sun.diffuse = Vec3(i < kSuns - 10 ? 0.01f : 1.0f);
+        builder.addLight(sun);
+        expected += double(sun.diffuse.x) * std::cos(angle);
+    }
+    const std::shared_ptr<const TracedScene> traced = builder.build();
+    for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
+    {
+        const Estimate light = measure(traced, floorView(), optionsOf(kind, 2), 4);
+        CAPTURE(int(kind), light.mean(), light.standardError(), expected);
+        CHECK(light.agrees(expected, 1e-3 * expected));
+    }
+}

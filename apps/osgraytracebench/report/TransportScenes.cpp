@@ -28,7 +28,8 @@ std::string numberText(const char* format, double value)
     return text;
 }
 
-/// Returns a scene with path tracing and, if wanted, photons of one kind; PATH is the reference.
+/// Returns a scene with PATH and SPPM. caustics: with PHOTON_CAUSTICS, too, which is then the
+/// reference; else PATH is.
 ReportScene sceneOf(const std::string& name, const std::string& title,
                     const osg::ref_ptr<osg::Group>& graph, bool caustics)
 {

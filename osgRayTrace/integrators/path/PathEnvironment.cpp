@@ -79,6 +79,10 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
         sampleOneStratum(tile, block, bounce, lanes, u);
         return;
     }
+    const bool importance =
+        tile.context.options.environmentSampling == EnvironmentSampling::Importance;
+    if (importance && tile.context.traced->lights().environment()->isEven() && !bounce.terminating)
+        return; // rays that find the sky by chance have all of its light
     environmentLanes(tile.context, {bounce.surface, lanes, bounce.transmissive, u, v},
                      bounce.terminating, samples);
     addSamples(tile, block, bounce, samples, bounce.terminating);

@@ -30,6 +30,16 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.depth[k] = from.depth[i];
 }
 
+/// Sets the fields that Embree reads of all rays of a packet and that no copy of a path sets.
+void clearRays(RayBlock& ray)
+{
+    for (int i = 0; i < kLanes; ++i)
+    {
+        ray.time[i] = 0.0f;
+        ray.id[i] = ray.flags[i] = 0;
+    }
+}
+
 void moveVertex(const PathBlock& from, int i, PathBlock& to, int k)
 {
     setLane(to.vertices.position, k, plainOf(from.vertices.position, i));
@@ -43,6 +53,7 @@ PathPlace addPath(PathQueue& paths, const PathBlock& from, int i, bool withVerti
     OSGRAYTRACE_ASSERT(paths.hasRoom());
     PathBlock& to = paths.blocks[paths.count + paths.added / kLanes];
     const int lane = paths.added++ % kLanes;
+    if (lane == 0) clearRays(to.rays.ray);
     moveLane(from, i, to, lane);
     if (withVertices) moveVertex(from, i, to, lane);
     to.active = lane == 0 ? 1u : to.active | (1u << lane);

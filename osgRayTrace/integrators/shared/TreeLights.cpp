@@ -156,7 +156,9 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
     const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
     const LaneMask lit = emitterLanes(tree.emitters(), samples.emitters, samples.pmf, receivers,
                                       transmissive, lights);
-    const LaneMask near = nearEmitters(tree.emitters(), samples.emitters, receivers.surface);
+    const LaneMask near = tree.hasRectangles()
+                              ? nearEmitters(tree.emitters(), samples.emitters, receivers.surface)
+                              : 0;
     lights.lit = lights.tinted = samples.points = 0;
     for (const int i : lanesIn(receivers.active))
     {
