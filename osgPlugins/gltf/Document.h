@@ -21,7 +21,7 @@ struct GltfOptions
 {
     bool rotation = true;         ///< Y up becomes Z up
     std::string scene;            ///< index or name; empty: the file's own
-    std::string variant;          ///< of KHR_materials_variants; empty: none
+    std::string variant;          ///< index or name; empty: none
     const osgDB::Options* caller; ///< for the images; may be null
 
     explicit GltfOptions(const osgDB::Options* options);

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/DracoMesh.h"
 
+#include "osgPlugins/gltf/DracoBounds.h"
+
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
-#include <draco/core/varint_decoding.h>
 
 #include <cstring>
 #include <limits>
@@ -27,45 +28,38 @@ constexpr std::uint64_t kSeamFaceBytes = 48; ///< of an attribute with a corner 
 constexpr std::uint64_t kPointBytes = 64;
 constexpr int kMostAttributes = 32;
 constexpr std::uint8_t kMostComponents = 4; ///< of glTF's attributes
-
-/// The numbers at the beginning of a mesh's connectivity.
-struct Counts
-{
-    std::uint64_t faces = 0, points = 0, seamAttributes = 0;
-};
-
-/// Reads the counts of a mesh of bitstream 2.2, which glTF asks for. Returns nothing if the bytes
-/// end before, or are of another version.
-std::optional<Counts> countsOf(draco::DecoderBuffer bytes, bool edgebreaker)
-{
-    if (bytes.bitstream_version() != DRACO_BITSTREAM_VERSION(2, 2)) return std::nullopt;
-    std::uint8_t seamAttributes = 0;
-    std::uint32_t faces = 0, points = 0;
-    if (!edgebreaker)
-    {
-        if (!draco::DecodeVarint(&faces, &bytes) || !draco::DecodeVarint(&points, &bytes))
-            return std::nullopt;
-        return Counts{faces, points, 0};
-    }
-    if (!draco::DecodeVarint(&points, &bytes) || !draco::DecodeVarint(&faces, &bytes) ||
-        !bytes.Decode(&seamAttributes))
-        return std::nullopt;
-    return Counts{faces, points, seamAttributes};
-}
+constexpr const char* kTooLarge = "would take memory out of proportion to the file";
 
 /// A decoder of the library that stops where a mesh has more than it may have: the library itself
 /// takes memory for whatever counts the bytes have.
 template <typename Decoder> class Bounded : public Decoder
 {
 public:
-    Bounded(const Limits& limits, bool edgebreaker) : _limits(limits), _edgebreaker(edgebreaker) {}
+    Bounded(const draco::DecoderBuffer& bytes, const Limits& limits, bool edgebreaker)
+        : _bytes(&bytes), _limits(limits), _edgebreaker(edgebreaker)
+    {
+    }
 
     const std::string& problem() const { return _problem; }
+
+    /// Is called when an attribute's prediction method has been read, and its values have not.
+    const draco::MeshAttributeIndicesEncodingData*
+    GetAttributeEncodingData(int attribute) const override
+    {
+        const auto* order = Decoder::GetAttributeEncodingData(attribute);
+        if (!order) return nullptr;
+        const auto components = this->point_cloud()->attribute(attribute)->num_components();
+        if (dracoOrientationsFit(*_bytes, static_cast<std::uint32_t>(order->num_values),
+                                 static_cast<std::uint8_t>(components)))
+            return order;
+        stop(kTooLarge);
+        return nullptr; // so the library does not predict
+    }
 
 protected:
     bool DecodeConnectivity() override
     {
-        const auto counts = countsOf(*this->buffer(), _edgebreaker);
+        const auto counts = dracoCounts(*_bytes, _edgebreaker);
         if (!counts) return stop("is not of draco's version 2.2, or ends in its header");
         if (counts->faces != _limits.faces)
             return stop("has " + std::to_string(counts->faces) + " triangles, and the indices " +
@@ -73,7 +67,7 @@ protected:
         // A mesh has no more vertices than corners, and points are split from vertices.
         if (counts->points > 3 * counts->faces || counts->seamAttributes > kMostAttributes ||
             counts->faces * (kFaceBytes + kSeamFaceBytes * counts->seamAttributes) > _limits.bytes)
-            return stop("would take memory out of proportion to the file");
+            return stop(kTooLarge);
         return Decoder::DecodeConnectivity();
     }
 
@@ -92,28 +86,28 @@ protected:
                 return stop("has attributes that glTF has no use for");
             bytesOfPoint += std::uint64_t(attribute.byte_stride()) + 8 * kMostComponents;
         }
-        if (bytesOfPoint * cloud.num_points() > _limits.bytes)
-            return stop("would take memory out of proportion to the file");
+        if (bytesOfPoint * cloud.num_points() > _limits.bytes) return stop(kTooLarge);
         return Decoder::DecodeAllAttributes();
     }
 
 private:
-    bool stop(const std::string& problem)
+    bool stop(const std::string& problem) const
     {
         _problem = problem;
         return false;
     }
 
+    const draco::DecoderBuffer* _bytes; ///< as far as they are not read yet
     Limits _limits;
     bool _edgebreaker;
-    std::string _problem;
+    mutable std::string _problem; ///< empty: none so far
 };
 
 template <typename Decoder>
 void decode(draco::DecoderBuffer& bytes, bool edgebreaker, const Limits& limits, draco::Mesh& mesh,
             const JsonPlace& place)
 {
-    Bounded<Decoder> decoder(limits, edgebreaker);
+    Bounded<Decoder> decoder(bytes, limits, edgebreaker);
     const draco::Status status = decoder.Decode(draco::DecoderOptions(), &bytes, &mesh);
     if (!decoder.problem().empty()) place.refuse(decoder.problem());
     if (!status.ok()) place.refuse("is damaged: " + status.error_msg_string());
@@ -216,6 +210,8 @@ DracoMesh decodeDraco(const std::string& compressed, const Accessor& indices,
     if (header.encoder_type != draco::TRIANGULAR_MESH) place.refuse("is no mesh of triangles");
     if (header.encoder_method > draco::MESH_EDGEBREAKER_ENCODING)
         place.refuse("is encoded by a method that is not known");
+    if ((header.flags & METADATA_FLAG_MASK) != 0 && !isSmallDracoMetadata(bytes))
+        place.refuse("has metadata that are damaged, or more than a mesh has use for");
     const std::size_t points = attributes.empty() ? 0 : attributes.front().layout.count;
     const Limits limits{indices.count / 3, points, mostBytes};
     draco::Mesh mesh;

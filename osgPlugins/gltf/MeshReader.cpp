@@ -5,8 +5,11 @@
 #include "osgPlugins/gltf/Extras.h"
 #include "osgPlugins/gltf/FlatNormals.h"
 #include "osgPlugins/gltf/Srgb.h"
+#include "osgRayTrace/base/NumberText.h"
 
 #include <osgAnimation/MorphTransformSoftware>
+
+#include <algorithm>
 
 namespace osgRayTrace::gltf
 {
@@ -66,12 +69,45 @@ void fill(osg::Geometry& geometry, const Vertices& vertices, const Surface& surf
     geometry.setStateSet(surface.states.get());
 }
 
+/// Returns the names of KHR_materials_variants; an empty list if the file has none.
+std::vector<std::string> variantNames(const JsonPlace& root)
+{
+    std::vector<std::string> names;
+    const auto list = root.extension("KHR_materials_variants");
+    for (std::size_t i = 0; list && i < list->sizeOf("variants"); ++i)
+        names.push_back(list->at("variants")[i].textOr("name", ""));
+    return names;
+}
+
+/// Returns the number of the variant that the options name, or whose number they give; nothing,
+/// with a note, if the file does not have it.
+std::optional<std::size_t> chosenVariant(const std::vector<std::string>& names, Document& document)
+{
+    const std::string& wanted = document.options().variant;
+    if (wanted.empty()) return std::nullopt;
+    const auto named = std::find(names.begin(), names.end(), wanted);
+    if (named != names.end()) return static_cast<std::size_t>(named - names.begin());
+    const auto number = engine::parseNumber<std::size_t>(wanted);
+    if (number && *number < names.size()) return *number;
+    document.note("has " + std::to_string(names.size()) + " variants, and none is '" + wanted +
+                  "'");
+    return std::nullopt;
+}
+
 osg::ref_ptr<osg::Vec3Array> clone(const osg::Vec3Array& array)
 {
     return new osg::Vec3Array(array, osg::CopyOp::DEEP_COPY_ARRAYS);
 }
 
 } // namespace
+
+MeshReader::MeshReader(Document& document)
+    : _document(&document), _vertices(document), _surfaces(document)
+{
+    const std::vector<std::string> names = variantNames(document.root());
+    _variants = names.size();
+    _variant = chosenVariant(names, document);
+}
 
 bool MeshReader::isMorphed(std::size_t mesh) const
 {
@@ -87,20 +123,14 @@ std::optional<std::size_t> MeshReader::materialOf(const JsonPlace& primitive) co
     const std::size_t count = _document->count("materials");
     const auto own = primitive.indexOf("material", count);
     const auto mapped = primitive.extension("KHR_materials_variants");
-    const auto list = _document->root().extension("KHR_materials_variants");
-    const std::string& wanted = _document->options().variant;
-    if (!mapped || !list || wanted.empty()) return own;
-    const JsonPlace variants = list->at("variants");
+    if (!mapped || !_variant) return own;
     const JsonPlace mappings = mapped->at("mappings");
     for (std::size_t i = 0; i < mappings.size(); ++i)
     {
         const JsonPlace ofMapping = mappings[i].at("variants");
         for (std::size_t k = 0; k < ofMapping.size(); ++k)
-        {
-            const std::size_t variant = ofMapping[k].index(variants.size());
-            if (variants[variant].textOr("name", "") == wanted)
+            if (ofMapping[k].index(_variants) == *_variant)
                 return mappings[i].at("material").index(count);
-        }
     }
     return own;
 }

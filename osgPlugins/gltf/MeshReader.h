@@ -15,10 +15,7 @@ namespace osgRayTrace::gltf
 class MeshReader
 {
 public:
-    explicit MeshReader(Document& document)
-        : _document(&document), _vertices(document), _surfaces(document)
-    {
-    }
+    explicit MeshReader(Document& document);
 
     /// Returns whether a mesh has morph targets, whose weights belong to the node.
     bool isMorphed(std::size_t mesh) const;
@@ -51,6 +48,8 @@ private:
     Document* _document;
     VertexReader _vertices;
     SurfaceReader _surfaces;
+    std::size_t _variants = 0;           ///< of KHR_materials_variants
+    std::optional<std::size_t> _variant; ///< that is taken
     std::map<std::size_t, std::vector<Primitive>> _primitives;
     std::map<std::size_t, osg::ref_ptr<osg::Geode>> _shared;
 };

@@ -29,7 +29,7 @@ public:
         supportsExtension("glb", "glTF 2.0 in one file");
         supportsOption("noRotation", "Y stays up, and is not turned to OSG's Z");
         supportsOption("scene=<index or name>", "The scene that is read. Default: the file's own");
-        supportsOption("variant=<name>", "The variant of materials. Default: none");
+        supportsOption("variant=<index or name>", "The variant of materials. Default: none");
         osgRayTrace::engine::preferOwnFolder(); // for the plugin of PhysicalMaterial's serializer
     }
 

@@ -5,6 +5,7 @@
 #include "tests/bridge/ShaderScenes.h"
 
 #include <osg/Material>
+#include <osg/Texture2DArray>
 
 #include <limits>
 
@@ -222,6 +223,66 @@ TEST_CASE("shader rules: textures by sampler, unit, user value and file", "[brid
                   "warned.material-value") == 1);
     CHECK(messages.timesSaid("material file, shaders 'rule 1': asks for the 2-D texture of unit "
                              "'9', which is not there") == 1);
+}
+
+TEST_CASE("shader rules: layers of texture arrays are textures", "[bridge]")
+{
+    ShadedPart shaded;
+    const osg::ref_ptr<osg::Texture2DArray> array = new osg::Texture2DArray;
+    array->setTextureSize(1, 1, 3);
+    array->setWrap(osg::Texture::WRAP_S, osg::Texture::MIRROR);
+    for (const unsigned char layer : {0, 1, 2})
+        array->setImage(layer, texel({layer, 50, 60, 70})->getImage());
+    shaded.bind(3, array, "layers");
+    const osg::ref_ptr<osg::Uniform> number = new osg::Uniform("number", 0.6f);
+    shaded.state().addUniform(number);
+
+    const auto redOf = [&](const std::string& layer)
+    {
+        const ConversionResult result = shaded.convert(
+            "{ " + kBump + R"(, "baseColorTexture": { "sampler": "layers", "layer": )" + layer +
+            " } }");
+        const uint32_t texture = soleMaterial(result).baseColorTexture;
+        CHECK(result.scene->textures.at(texture)->wrapS == TextureWrap::Mirror);
+        return texelOf(result, texture).at(0);
+    };
+    CHECK(redOf("0") == 0);
+    CHECK(redOf("2") == 2);
+    CHECK(redOf("9") == 2); // as OpenGL clamps it
+    CHECK(redOf(R"({ "uniform": "number" })") == 1);
+
+    // Layers have channels, and a change of the layer or of its image shows.
+    SceneConverter converter;
+    const ConversionInput input = shaded.input("{ \"shaders\": [ { " + kBump + R"(,
+        "roughnessTexture": { "unit": 3, "layer": { "uniform": "number" } } } ] })");
+    const auto roughness = [&]
+    {
+        const ConversionResult result = converter.convert(input);
+        return texelOf(result, soleMaterial(result).metallicRoughnessTexture).at(1);
+    };
+    CHECK(roughness() == 1);
+    number->set(2.0f);
+    CHECK(roughness() == 2);
+    array->getImage(2)->data()[0] = 99;
+    array->getImage(2)->dirty();
+    CHECK(roughness() == 99);
+
+    // What is not there is named: an array where there is a texture, and a uniform.
+    shaded.bind(4, texel({1, 2, 3, 4}), "flat");
+    const auto misses = [&](const std::string& source)
+    {
+        const Messages messages;
+        shaded.convert("{ " + kBump + ", \"emissionTexture\": { " + source + " } }");
+        return messages.text();
+    };
+    CHECK_THAT(misses(R"("sampler": "flat", "layer": 0)"),
+               Contains("asks for the layer of sampler 'flat', which is not there"));
+    CHECK_THAT(misses(R"("sampler": "layers")"),
+               Contains("asks for the 2-D texture of sampler 'layers'"));
+    CHECK_THAT(misses(R"("sampler": "layers", "layer": { "uniform": "none" })"),
+               Contains("asks for the uniform 'none'"));
+    CHECK_THAT(memberError(R"("normalTexture": { "unit": 0, "layer": -1 })"),
+               Contains("'layer': a number is out of range"));
 }
 
 TEST_CASE("shader rules: channels are put where they belong, once", "[bridge]")

@@ -160,6 +160,8 @@ def main():
     folder = task["folder"]
     readModel(task["model"])
     giveDefaultMaterial()
+    for shown in renderedMeshes() if task.get("repair") else []:
+        repairs.removeCovered(shown.data)
     for material in bpy.data.materials:
         if material.use_nodes:
             if task.get("repair"):

@@ -1,8 +1,13 @@
-# repairs.py - gives Cycles' materials glTF's formulas where Blender's importer has others.
+# repairs.py - gives Cycles what glTF means where Blender's importer does not.
 # SPDX-License-Identifier: MIT
-"""compare.py --repair has renderInBlender.py call repair(). Otherwise materials stay as imported.
-Those with textures of metal or transmission always do."""
+"""compare.py --repair has renderInBlender.py call repair() and removeCovered(). Otherwise materials
+and meshes stay as imported. Materials with textures of metal or transmission always do."""
 import math
+
+import bmesh
+import numpy
+
+LARGEST_MESH = 1000  # triangles; all pairs are compared
 
 
 def nodeOfType(material, kind):
@@ -106,6 +111,39 @@ def repairClearcoat(material, principled):
     replaceSurface(material, principled.outputs[0], mix.outputs[0])
     links.new(principled.outputs[0], mix.inputs[1])
     links.new(coat.outputs[0], mix.inputs[2])
+
+
+def isCovered(points, corners, normal):
+    """Returns which points lie within triangles of their plane. corners: of each triangle."""
+    first, edges = corners, numpy.roll(corners, -1, axis=1) - corners
+    off = points[:, None, None] - first[None]
+    sides = numpy.cross(edges[None], off) @ normal
+    size = numpy.abs(corners).max()
+    return ((sides > -1e-6 * size**2).all(2) & (abs(off @ normal) < 1e-5 * size).all(2)).any(1)
+
+
+def removeCovered(mesh):
+    """Takes away triangles that others of their plane cover: Cycles shows them black."""
+    if len(mesh.polygons) > LARGEST_MESH or any(len(it.vertices) != 3 for it in mesh.polygons):
+        return
+    places = numpy.array([vertex.co for vertex in mesh.vertices])
+    corners = places[numpy.array([it.vertices for it in mesh.polygons]).reshape(-1, 3)]
+    normals = numpy.array([it.normal for it in mesh.polygons])
+    shares = [(i + 1, k + 1, 7 - i - k) for i in range(6) for k in range(6 - i)]
+    weights = numpy.array(shares) / 9.0
+    left = numpy.ones(len(corners), bool)
+    for i, normal in enumerate(normals):
+        left[i] = False
+        others = left & (normals @ normal > 0.999)
+        covered = others.any() and isCovered(weights @ corners[i], corners[others], normal).all()
+        left[i] = not covered
+    editable = bmesh.new()
+    editable.from_mesh(mesh)
+    editable.faces.ensure_lookup_table()
+    gone = [editable.faces[i] for i in numpy.flatnonzero(~left)]
+    bmesh.ops.delete(editable, geom=gone, context="FACES_ONLY")
+    editable.to_mesh(mesh)
+    editable.free()
 
 
 def repair(material):

@@ -1,4 +1,5 @@
-# spheres.py - writes glTF files with one sphere each, to compare one lobe of a surface at a time.
+# spheres.py - writes glTF files with one sphere each, to compare one lobe of a surface at a time,
+# and with a wine glass.
 # SPDX-License-Identifier: MIT
 import base64
 import json
@@ -52,6 +53,16 @@ MATERIALS = {
         },
     ),
     "glassThin": material((0.6, 0.9, 0.7), roughness=0, transmission=CLEAR),
+    "goblet": material(roughness=0, transmission=CLEAR, volume={"thicknessFactor": 1}),
+    "gobletAmber": material(
+        roughness=0,
+        transmission=CLEAR,
+        volume={
+            "thicknessFactor": 1,
+            "attenuationDistance": 0.1,
+            "attenuationColor": [0.9, 0.6, 0.2],
+        },
+    ),
     "specularHalf": material(GREY, roughness=0.2, specular={"specularColorFactor": GREY}),
     "clearcoat": material(
         (0.1, 0.2, 0.6),
@@ -71,8 +82,42 @@ MATERIALS = {
 }
 
 
+# Radius and height, from the middle of the foot up the outside and down the inside of the bowl.
+GOBLET = [(0, 0), (0.42, 0), (0.45, 0.03), (0.07, 0.08), (0.05, 0.5), (0.08, 0.66), (0.4, 0.85)]
+GOBLET += [(0.52, 1.2), (0.42, 1.6), (0.385, 1.6), (0.48, 1.2), (0.36, 0.89), (0, 0.74)]
+
+
+def goblet():
+    """Returns points, normals and triangles of a wine glass, whose wall is a closed surface."""
+    line = numpy.array(GOBLET, float)
+    for _ in range(4):  # cuts corners [Chaikin], and keeps both ends
+        near, far = 0.75 * line[:-1] + 0.25 * line[1:], 0.25 * line[:-1] + 0.75 * line[1:]
+        inner = numpy.stack([near, far], 1).reshape(-1, 2)
+        line = numpy.concatenate([line[:1], inner, line[-1:]])
+    along = numpy.gradient(line, axis=0)
+    along[0] = along[-1] = 0
+    along[0, 0], along[-1, 0] = 1, -1
+    along /= numpy.linalg.norm(along, axis=1, keepdims=True)
+    azimuth = numpy.arange(COLUMNS + 1) / COLUMNS * 2 * numpy.pi
+    around = numpy.stack([numpy.sin(azimuth), numpy.cos(azimuth)], -1)
+
+    def turned(radius, height):
+        flat = radius[:, None, None] * around
+        up = numpy.broadcast_to(height[:, None], flat.shape[:2])
+        return numpy.stack([flat[..., 0], up, flat[..., 1]], -1).reshape(-1, 3).astype("<f4")
+
+    points, normals = turned(*line.T), turned(along[:, 1], -along[:, 0])
+    row, column = numpy.meshgrid(numpy.arange(len(line) - 1), numpy.arange(COLUMNS), indexing="ij")
+    first = row * (COLUMNS + 1) + column
+    above = first + COLUMNS + 1
+    right = numpy.stack([first, first + 1, above + 1], -1)[1:]
+    left = numpy.stack([first, above + 1, above], -1)[:-1]
+    triangles = numpy.concatenate([right.reshape(-1, 3), left.reshape(-1, 3)])
+    return points, normals, triangles.astype("<u4")
+
+
 def sphere():
-    """Returns points of a unit sphere, which are its normals too, and triangles."""
+    """Returns points of a unit sphere, its normals, which are the same, and triangles."""
     azimuth = numpy.arange(COLUMNS + 1) / COLUMNS * 2 * numpy.pi
     polar = numpy.arange(ROWS + 1) / ROWS * numpy.pi
     azimuth, polar = numpy.meshgrid(azimuth, polar)
@@ -85,15 +130,16 @@ def sphere():
     upper = numpy.stack([first, below + 1, first + 1], -1)[1:]
     lower = numpy.stack([first, below, below + 1], -1)[:-1]
     triangles = numpy.concatenate([upper.reshape(-1, 3), lower.reshape(-1, 3)])
-    return points.reshape(-1, 3).astype("<f4"), triangles.astype("<u4")
+    points = points.reshape(-1, 3).astype("<f4")
+    return points, points, triangles.astype("<u4")
 
 
 def write(name, folder):
-    """Writes the sphere of this name; returns the file."""
-    points, triangles = sphere()
-    data = points.tobytes() + triangles.tobytes()
+    """Writes the body of this name; returns the file."""
+    points, normals, triangles = goblet() if name.startswith("goblet") else sphere()
+    data = points.tobytes() + normals.tobytes() + triangles.tobytes()
     surface = MATERIALS[name]
-    primitive = {"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 1, "material": 0}
+    primitive = {"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2, "material": 0}
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -111,11 +157,13 @@ def write(name, folder):
                 "min": points.min(0).tolist(),
                 "max": points.max(0).tolist(),
             },
-            {"bufferView": 1, "componentType": 5125, "type": "SCALAR", "count": triangles.size},
+            {"bufferView": 1, "componentType": 5126, "type": "VEC3", "count": len(normals)},
+            {"bufferView": 2, "componentType": 5125, "type": "SCALAR", "count": triangles.size},
         ],
         "bufferViews": [
             {"buffer": 0, "byteLength": points.nbytes},
-            {"buffer": 0, "byteOffset": points.nbytes, "byteLength": triangles.nbytes},
+            {"buffer": 0, "byteOffset": points.nbytes, "byteLength": normals.nbytes},
+            {"buffer": 0, "byteOffset": 2 * points.nbytes, "byteLength": triangles.nbytes},
         ],
         "buffers": [
             {

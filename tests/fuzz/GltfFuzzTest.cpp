@@ -109,7 +109,10 @@ Json anyCompressedModel(Dice& dice)
     {
 #ifdef OSGRAYTRACE_TEST_DRACO
     case 0:
-        return dracoModel(grid, worn(dracoBytes(grid, 4 + dice.below(10), dice.oneIn(2)), dice));
+    {
+        const DracoStyle style{4 + dice.below(10), !dice.oneIn(3), dice.below(11), dice.oneIn(4)};
+        return dracoModel(grid, worn(dracoBytes(grid, style), dice));
+    }
 #endif
 #ifdef OSGRAYTRACE_TEST_MESHOPT
     case 1:

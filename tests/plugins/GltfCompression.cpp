@@ -76,9 +76,23 @@ void addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, std::i
             values.data() + std::size_t(i) * static_cast<std::size_t>(components));
 }
 
+/// Adds an entry and a node with an entry below it, and as much for the positions.
+void addMetadata(draco::Mesh& mesh)
+{
+    auto ofMesh = std::make_unique<draco::GeometryMetadata>();
+    auto below = std::make_unique<draco::Metadata>();
+    below->AddEntryString("author", "nobody");
+    ofMesh->AddEntryInt("version", 3);
+    ofMesh->AddSubMetadata("more", std::move(below));
+    mesh.AddMetadata(std::move(ofMesh));
+    auto ofPositions = std::make_unique<draco::AttributeMetadata>();
+    ofPositions->AddEntryString("name", "position");
+    mesh.AddAttributeMetadata(0, std::move(ofPositions));
+}
+
 } // namespace
 
-std::string dracoBytes(const Grid& grid, int bits, bool edgebreaker)
+std::string dracoBytes(const Grid& grid, const DracoStyle& style)
 {
     draco::Mesh mesh;
     mesh.set_num_points(static_cast<std::uint32_t>(grid.count()));
@@ -88,12 +102,14 @@ std::string dracoBytes(const Grid& grid, int bits, bool edgebreaker)
     for (std::size_t i = 0; i + 2 < grid.indices.size(); i += 3)
         mesh.AddFace({draco::PointIndex(grid.indices[i]), draco::PointIndex(grid.indices[i + 1]),
                       draco::PointIndex(grid.indices[i + 2])});
+    if (style.metadata) addMetadata(mesh);
     draco::Encoder encoder;
-    encoder.SetEncodingMethod(edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING
-                                          : draco::MESH_SEQUENTIAL_ENCODING);
+    encoder.SetSpeedOptions(style.speed, style.speed);
+    encoder.SetEncodingMethod(style.edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING
+                                                : draco::MESH_SEQUENTIAL_ENCODING);
     for (const auto type : {draco::GeometryAttribute::POSITION, draco::GeometryAttribute::NORMAL,
                             draco::GeometryAttribute::TEX_COORD})
-        encoder.SetAttributeQuantization(type, bits);
+        encoder.SetAttributeQuantization(type, style.bits);
     draco::EncoderBuffer bytes;
     const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &bytes);
     if (!status.ok()) throw std::runtime_error(status.error_msg_string());

@@ -29,9 +29,17 @@ Grid gridOf(int cells);
 Json plainModel(const Grid& grid);
 
 #ifdef OSGRAYTRACE_TEST_DRACO
-/// Returns the bytes of a mesh with the attributes 0 (positions), 1 (normals) and 2 (texcoords), in
-/// so many bits each. Edgebreaker: by that method, which changes the order of the vertices.
-std::string dracoBytes(const Grid& grid, int bits, bool edgebreaker);
+/// How a mesh is written.
+struct DracoStyle
+{
+    int bits = 11;           ///< of each attribute
+    bool edgebreaker = true; ///< that method changes the order of the vertices
+    int speed = 5;           ///< below 4 texcoords are predicted from positions, if edgebreaker
+    bool metadata = false;   ///< some, of the mesh and of an attribute
+};
+
+/// Returns the bytes of a mesh with the attributes 0 (positions), 1 (normals) and 2 (texcoords).
+std::string dracoBytes(const Grid& grid, const DracoStyle& style);
 
 /// Returns a model of which all is compressed by draco.
 Json dracoModel(const Grid& grid, const std::string& bytes);

@@ -227,10 +227,11 @@ TEST_CASE("gltf: meshes of draco are those of the model, within their bits", "[g
     constexpr int kCells = 40, kBits = 14;
     const Grid grid = gridOf(kCells);
     const Triangles expected = sorted(trianglesOf(*ReadModel(plainModel(grid)).geometry));
-    for (const bool edgebreaker : {false, true})
+    for (const DracoStyle& style :
+         {DracoStyle{kBits, false}, DracoStyle{kBits, true}, DracoStyle{kBits, true, 0, true}})
     {
-        INFO(edgebreaker);
-        const ReadModel read(dracoModel(grid, dracoBytes(grid, kBits, edgebreaker)));
+        INFO(style.edgebreaker << " " << style.speed);
+        const ReadModel read(dracoModel(grid, dracoBytes(grid, style)));
         REQUIRE(read.positions().size() == grid.count());
         // A quantised value is half a step away at most; the positions' range is that of x.
         const float step = 1.0f / static_cast<float>((1 << kBits) - 1);
@@ -268,7 +269,7 @@ TEST_CASE("gltf: accessors of a draco mesh take their own types, and other attri
           "[gltf]")
 {
     const Grid grid = gridOf(3);
-    Json model = dracoModel(grid, dracoBytes(grid, 12, false));
+    Json model = dracoModel(grid, dracoBytes(grid, {12, false}));
     const auto indices = model["meshes"][0]["primitives"][0]["indices"].get<std::size_t>();
     model["accessors"][indices]["componentType"] = kUnsignedByte;
     attributesOf(model)["COLOR_0"] =
@@ -285,7 +286,7 @@ TEST_CASE("gltf: what draco cannot have written is refused with its place", "[gl
     for (const bool edgebreaker : {false, true})
     {
         INFO(edgebreaker);
-        const std::string bytes = dracoBytes(grid, 11, edgebreaker);
+        const std::string bytes = dracoBytes(grid, {11, edgebreaker});
         const Json good = dracoModel(grid, bytes);
         CHECK(refusalOf(good).empty());
         const std::string place =
@@ -336,6 +337,31 @@ TEST_CASE("gltf: a draco mesh of many triangles in few bytes takes no memory for
     checkRefusal(model, "triangles, and the indices 2");
     model["accessors"].back()["count"] = 3ull << 28;
     checkRefusal(model, "out of proportion");
+}
+
+TEST_CASE("gltf: draco's orientations and metadata take no memory that is only said", "[gltf]")
+{
+    // The number of orientations, of four bytes, stands before the end of the texcoords. The
+    // library would take 32 MB for this number of them, and a second to read them.
+    const Grid grid = gridOf(20);
+    const std::string good = dracoBytes(grid, {11, true, 0});
+    bool isRefused = false;
+    for (std::size_t at = good.size() - 60; at + 4 <= good.size() && !isRefused; ++at)
+    {
+        std::string many = good;
+        many.replace(at, 4, std::string("\0\0\0\x10", 4));
+        isRefused =
+            refusalOf(dracoModel(grid, many)).find("out of proportion") != std::string::npos;
+    }
+    CHECK(isRefused);
+
+    // Each node of the metadata says that it has 100 more below it.
+    std::string nested = good.substr(0, 11);
+    nested[10] = static_cast<char>(0x80); // the flag of metadata
+    nested += std::string("\0\0\x64", 3);
+    for (int i = 0; i < 100; ++i)
+        nested += std::string("\0\0\x64", 3);
+    checkRefusal(dracoModel(grid, nested + std::string(400, '\0')), "has metadata that are");
 }
 #endif
 

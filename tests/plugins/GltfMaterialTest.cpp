@@ -303,6 +303,10 @@ TEST_CASE("gltf: a variant has its own materials", "[gltf]")
     CHECK(nameOf("") == "plain");
     CHECK(nameOf("variant=a") == "plain");
     CHECK(nameOf("variant=b") == "red");
+    CHECK(nameOf("variant=1") == "red"); // names may have spaces, which options do not
+    const Listening listening;
+    CHECK(nameOf("variant=c") == "plain");
+    CHECK(listening.text().find("has 2 variants, and none is 'c'") != std::string::npos);
 }
 
 TEST_CASE("gltf: an image that cannot be read is reported, and the model is there", "[gltf]")

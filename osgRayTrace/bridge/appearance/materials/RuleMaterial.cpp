@@ -61,10 +61,9 @@ private:
         unsigned int unit = 0;
     };
 
-    void miss(const char* kind, const std::string& name, bool optional)
+    void miss(const std::string& kind, const std::string& name, bool optional)
     {
-        if (!optional && _result.missing.empty())
-            _result.missing = std::string(kind) + " '" + name + "'";
+        if (!optional && _result.missing.empty()) _result.missing = kind + " '" + name + "'";
     }
 
     bool gives(const char* name) const
@@ -96,19 +95,34 @@ private:
         return values;
     }
 
+    /// Returns a layer of the array of a unit; null: there is none. Numbers are rounded and clamped
+    /// as texture arrays do it.
+    const osg::Texture2D* layerAt(unsigned int unit, const TextureSource& source)
+    {
+        static const Parameter kLayer = {"layer", 1, 0.0, 65535.0, nullptr};
+        const osg::Texture2DArray* array = arrayAt(unit, _state);
+        if (!array || array->getNumImages() == 0) return nullptr;
+        const std::optional<Values> values = numbers(kLayer, *source.layer);
+        if (!values) return nullptr;
+        const double last = array->getNumImages() - 1;
+        return _derived.ofLayer(
+            *array, static_cast<unsigned int>(std::min(std::floor(values->front() + 0.5), last)));
+    }
+
     /// Returns the texture of a field, and records what is not there.
     Found find(TextureField field)
     {
         const std::optional<TextureSource>& source = _rule.textures[field];
         if (!source) return {};
         const std::optional<unsigned int> unit = unitOf(*source, _path, _state);
-        const osg::Texture2D* texture = unit ? textureAt(*unit, _state) : nullptr;
+        const osg::Texture2D* texture = nullptr;
+        if (unit) texture = source->layer ? layerAt(*unit, *source) : textureAt(*unit, _state);
         if (!texture)
         {
-            constexpr const char* kWords[] = {"2-D texture of sampler", "2-D texture of unit",
-                                              "2-D texture of user value", "2-D texture of file"};
+            constexpr const char* kWords[] = {"of sampler", "of unit", "of user value", "of file"};
             const bool byUnit = source->kind == TextureSource::Kind::Unit;
-            miss(kWords[static_cast<int>(source->kind)],
+            miss(std::string(source->layer ? "layer " : "2-D texture ") +
+                     kWords[static_cast<int>(source->kind)],
                  byUnit ? std::to_string(source->unit) : source->pattern, source->optional);
             return {};
         }

@@ -107,6 +107,14 @@ std::optional<unsigned int> unitFrom(const std::vector<double>& values)
     return static_cast<unsigned int>(values[0]);
 }
 
+/// Returns the texture of a unit; null: none, or one of another class.
+template <class T> const T* boundTo(unsigned int unit, const GraphState& state)
+{
+    const auto found = state.shader->textures.find(unit);
+    return found == state.shader->textures.end() ? nullptr
+                                                 : dynamic_cast<const T*>(found->second.first);
+}
+
 bool holds(const ShaderCondition& condition, const osg::NodePath& path, const GraphState& state)
 {
     switch (condition.kind)
@@ -186,10 +194,12 @@ std::optional<unsigned int> unitOf(const TextureSource& source, const osg::NodeP
 
 const osg::Texture2D* textureAt(unsigned int unit, const GraphState& state)
 {
-    const auto found = state.shader->textures.find(unit);
-    return found == state.shader->textures.end()
-               ? nullptr
-               : dynamic_cast<const osg::Texture2D*>(found->second.first);
+    return boundTo<osg::Texture2D>(unit, state);
+}
+
+const osg::Texture2DArray* arrayAt(unsigned int unit, const GraphState& state)
+{
+    return boundTo<osg::Texture2DArray>(unit, state);
 }
 
 } // namespace osgRayTrace::engine

@@ -7,6 +7,7 @@
 
 #include <osg/Node>
 #include <osg/Texture2D>
+#include <osg/Texture2DArray>
 
 #include <optional>
 
@@ -29,5 +30,8 @@ std::optional<unsigned int> unitOf(const TextureSource& source, const osg::NodeP
 
 /// Returns the texture that is bound to a unit; null: none, or none of two dimensions.
 const osg::Texture2D* textureAt(unsigned int unit, const GraphState& state);
+
+/// Returns the texture array that is bound to a unit; null: none.
+const osg::Texture2DArray* arrayAt(unsigned int unit, const GraphState& state);
 
 } // namespace osgRayTrace::engine

@@ -63,9 +63,10 @@ struct TextureSource
 
     Kind kind = Kind::Sampler;
     std::string pattern;
-    unsigned int unit = 0;    ///< Kind::Unit only
-    std::string channels;     ///< letters of "rgba", one for each channel that is read
-    bool invert = false;      ///< true: 1 - x for each channel that is read
+    unsigned int unit = 0;            ///< Kind::Unit only
+    std::optional<ValueSource> layer; ///< layer of a texture array; nothing: a 2-D texture
+    std::string channels;             ///< letters of "rgba", one for each channel that is read
+    bool invert = false;              ///< true: 1 - x for each channel that is read
     std::optional<bool> srgb; ///< whether a colour is encoded in sRGB; nothing: by its format
     bool optional = false;    ///< true: nobody is told if it is not there
 };

@@ -63,6 +63,7 @@ constexpr TextureWord kTextures[kTextureFields] = {
     {"normalTexture", "rgb"}};
 
 const Parameter kAlphaReference = {"alphaReference", 1, 0.0, 1.0, nullptr};
+const Parameter kLayer = {"layer", 1, 0.0, 65535.0, nullptr};
 
 /// Reads one rule. A function that returns false has left the error and its line.
 class RuleReader
@@ -297,6 +298,8 @@ private:
                            ? readIndex(member, kMostUnits, source.unit)
                            : readText(member, source.pattern);
             }
+            else if (member.name == kLayer.name)
+                good = readValue(member, kLayer, source.layer.emplace());
             else if (member.name == "optional")
                 good = readFlag(member, source.optional);
             else if (member.name == "srgb" && channels.empty())
@@ -306,9 +309,10 @@ private:
             else if (member.name == "channels" && !channels.empty())
                 good = readChannels(member, source.channels);
             else
-                return fail(member, "does not belong here; there are sampler, unit, user, texture, "
-                                    "optional, srgb for a colour, and channels and invert for "
-                                    "others");
+                return fail(member,
+                            "does not belong here; there are sampler, unit, user, texture, "
+                            "layer, optional, srgb for a colour, and channels and invert for "
+                            "others");
             if (!good) return false;
         }
         return found || fail(json, "the object names no texture");
@@ -343,8 +347,11 @@ bool ShaderRule::readsUserValues() const
            std::any_of(parameters.begin(), parameters.end(),
                        [&](const ParameterRule& item) { return ofUser(item.source); }) ||
            std::any_of(textures.begin(), textures.end(),
-                       [](const auto& texture)
-                       { return texture && texture->kind == TextureSource::Kind::User; }) ||
+                       [&](const auto& texture)
+                       {
+                           return texture && (texture->kind == TextureSource::Kind::User ||
+                                              (texture->layer && ofUser(*texture->layer)));
+                       }) ||
            (alphaReference && ofUser(*alphaReference));
 }
 

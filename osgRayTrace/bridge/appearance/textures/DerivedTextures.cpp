@@ -67,7 +67,7 @@ osg::ref_ptr<osg::Image> imageOf(const std::array<ChannelSource, 3>& channels,
     return image;
 }
 
-void copySampling(const osg::Texture2D& from, osg::Texture2D& to)
+void copySampling(const osg::Texture& from, osg::Texture2D& to)
 {
     for (const auto direction : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
         to.setWrap(direction, from.getWrap(direction));
@@ -163,8 +163,27 @@ osg::Texture2D* DerivedTextures::ofEncoding(const osg::Texture2D& texture, bool 
                 });
 }
 
+osg::Texture2D* DerivedTextures::ofLayer(const osg::Texture2DArray& array, unsigned int layer)
+{
+    Layer& entry = _layers[{&array, layer}];
+    entry.used = _round;
+    entry.array = &array;
+    const osg::Image* image = layer < array.getNumImages() ? array.getImage(layer) : nullptr;
+    // An image that was given up after it went to OpenGL stays.
+    if (!entry.texture && !image) return nullptr;
+    if (!entry.texture) entry.texture = new osg::Texture2D;
+    if (image && image != entry.texture->getImage())
+        entry.texture->setImage(const_cast<osg::Image*>(image)); // held, but not changed
+    if (array.getInternalFormatMode() == osg::Texture::USE_USER_DEFINED_FORMAT)
+        entry.texture->setInternalFormat(array.getInternalFormat());
+    copySampling(array, *entry.texture);
+    return entry.texture.get();
+}
+
 void DerivedTextures::end()
 {
+    for (auto layer = _layers.begin(); layer != _layers.end();)
+        layer = layer->second.used != _round ? _layers.erase(layer) : std::next(layer);
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used != _round ? _entries.erase(entry) : std::next(entry);
 }

@@ -1,9 +1,11 @@
-// DerivedTextures.h - textures that are made of channels of other textures. Layer: bridge.
+// DerivedTextures.h - textures that are made of channels or layers of other textures. Layer:
+// bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <osg/Image>
 #include <osg/Texture2D>
+#include <osg/Texture2DArray>
 
 #include <array>
 #include <map>
@@ -39,6 +41,10 @@ public:
     /// texels cannot be read.
     osg::Texture2D* ofEncoding(const osg::Texture2D& texture, bool srgb);
 
+    /// Returns a layer of an array as a texture of its own, which shares the image. Null: the layer
+    /// has no image.
+    osg::Texture2D* ofLayer(const osg::Texture2DArray& array, unsigned int layer);
+
     /// Forgets the textures that nobody has asked for since begin().
     void end();
 
@@ -69,7 +75,15 @@ private:
     osg::Texture2D* find(const Key& key, const std::vector<const osg::Texture2D*>& sources,
                          const Make& make);
 
+    struct Layer
+    {
+        osg::ref_ptr<const osg::Texture2DArray> array; // keeps its address unique
+        osg::ref_ptr<osg::Texture2D> texture;
+        unsigned int used = 0;
+    };
+
     std::map<Key, Entry> _entries;
+    std::map<std::pair<const osg::Texture2DArray*, unsigned int>, Layer> _layers;
     unsigned int _round = 0;
 };
 
