@@ -17,6 +17,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace osgRayTrace
 {
@@ -75,6 +77,7 @@ struct Renderer::Implementation
     void resume();
     std::string pictureName() const;
     PassSums passSums() const;
+    std::vector<std::string> idPaths() const;
     void placeHomeView();
     void prepareSession();
     void convertScene();
