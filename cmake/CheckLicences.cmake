@@ -6,7 +6,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/SourceFiles.cmake")
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)
 
 source_files("${ROOT}" files
-    "${CPP_FILES}|\\.(cmake|sh|in|ya?ml|cff)$|(^|/)(CMakeLists\\.txt|Dockerfile|\\.ci/run)$")
+    "${CPP_FILES}|\\.(cmake|sh|in|ya?ml|cff|pyi?)$|(^|/)(CMakeLists\\.txt|Dockerfile|\\.ci/run)$")
 list(LENGTH files count)
 if(count EQUAL 0)
     message(FATAL_ERROR "No source files below ROOT='${ROOT}'")

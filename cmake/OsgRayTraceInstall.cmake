@@ -28,9 +28,8 @@ install(FILES
     "${PROJECT_SOURCE_DIR}/cmake/OsgRayTraceOpenSceneGraph.cmake"
     DESTINATION "${OSGRAYTRACE_PACKAGE_DIR}")
 
-# The commands and links of README.md and of the pages in docs/ work in one folder, which has pages,
-# pictures, scenes and configurations.
-set(OSGRAYTRACE_SHARE_DIR "${CMAKE_INSTALL_DATADIR}/osgRayTrace")
+# The commands and links of README.md and of the pages in docs/ work in one folder, OSGRAYTRACE_SHARE_DIR,
+# which has pages, pictures, scenes and configurations.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}")
 install(FILES osgRayTrace/README.md DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")
 install(DIRECTORY osgRayTrace/docs DESTINATION "${OSGRAYTRACE_SHARE_DIR}/osgRayTrace")

@@ -227,6 +227,19 @@ osg::ref_ptr<osg::Image> Renderer::getChannelImage(const std::string& channel) c
         });
 }
 
+std::vector<std::string> Renderer::getIdPaths() const
+{
+    try
+    {
+        return _implementation->idPaths();
+    }
+    catch (const std::exception& error)
+    {
+        engine::warnOnce(std::string("the paths of ids could not be made: ") + error.what());
+        return {};
+    }
+}
+
 const Statistics& Renderer::getStatistics() const
 {
     return _implementation->statistics;

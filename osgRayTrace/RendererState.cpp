@@ -6,7 +6,10 @@
 #include "osgRayTrace/PassSumsState.h"
 #include "osgRayTrace/PictureText.h"
 #include "osgRayTrace/bridge/common/HomeView.h"
+#include "osgRayTrace/bridge/common/NodePathText.h"
+#include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
+#include "osgRayTrace/bridge/pick/PickIndex.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
 
 #include <osg/Light>
@@ -117,6 +120,37 @@ PassSums Renderer::Implementation::passSums() const
     result.picture = pictureName(rendered);
     result.displayReferred = rendered.traced->scene().displayReferred;
     return result;
+}
+
+/// Returns the path of each instance, after an empty one, by converting the graph with an index of
+/// its paths. The index leaves out the two nodes that a RayTracedScene has above a graph.
+std::vector<std::string> Renderer::Implementation::idPaths() const
+{
+    osg::Group* group = scene ? scene->asGroup() : nullptr;
+    if (!hasImage() || sceneDirty || !group) return {};
+    const osg::ref_ptr<engine::SceneRoot> root = new engine::SceneRoot(group);
+    const osg::ref_ptr<engine::SceneRoot> aboveRoot = new engine::SceneRoot(root.get());
+    engine::ConversionInput input = conversionInput(convertedFor);
+    input.root = aboveRoot.get();
+    input.picks = true;
+
+    const std::lock_guard<std::mutex> lock(graphMutex());
+    engine::SceneConverter indexing;
+    const engine::ConversionResult conversion = indexing.convert(input);
+    const engine::PickIndex& index = *conversion.pickIndex;
+    std::vector<std::string> paths(conversion.scene->instances.size() + 1);
+    std::vector<uint32_t> way;
+    for (uint32_t instance = 0; instance + 1 < paths.size(); ++instance)
+    {
+        const uint32_t last = index.use(instance).path;
+        if (last == engine::NodeTree::kNone) continue;
+        index.paths().way(last, way);
+        osg::NodePath path;
+        for (const uint32_t entry : way)
+            path.push_back(&index.paths().node(entry));
+        paths[instance + 1] = engine::pathText(path);
+    }
+    return paths;
 }
 
 /// Returns the denoised image and records how long the denoiser took.

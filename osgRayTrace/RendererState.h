@@ -17,6 +17,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace osgRayTrace
 {
@@ -84,6 +86,7 @@ struct Renderer::Implementation
                 const std::function<bool(const Statistics&)>& progress);
     engine::PassSums checkedSums(const RenderedInputs& inputs);
     PassSums passSums() const;
+    std::vector<std::string> idPaths() const;
     void placeHomeView();
     void prepareSession();
     void convertScene();

@@ -10,9 +10,11 @@
 #include <osgDB/Options>
 #include <osgDB/Registry>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace osgRayTrace::app
 {
@@ -20,11 +22,12 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// Returns whether an .osgt file ends before its first block, or within a block or a string: osgDB
-/// 3.6 may read such a file for ever.
-bool isCutShort(const std::string& file)
+constexpr const char* kOsgtHeader = "#Ascii";
+
+/// Returns whether an .osgt text ends before its first block, or within a block or a string: osgDB
+/// 3.6 may read such a text for ever.
+bool isCutShort(std::istream& stream)
 {
-    std::ifstream stream(file, std::ios::binary);
     int blocks = 0;
     int depth = 0;
     bool quoted = false;
@@ -49,6 +52,22 @@ bool isCutShort(const std::string& file)
     return quoted || depth > 0 || blocks == 0;
 }
 
+bool isCutShort(const std::string& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return isCutShort(stream);
+}
+
+osg::ref_ptr<osgDB::Options> readingOptions()
+{
+    osgDB::Registry* registry = osgDB::Registry::instance();
+    const osg::ref_ptr<osgDB::Options> options =
+        registry->getOptions() ? registry->getOptions()->cloneOptions() : new osgDB::Options;
+    options->setPluginStringData("ForceReadingImage",
+                                 "true"); // keeps the names of images that are missing
+    return options;
+}
+
 osg::ref_ptr<osg::Node> readModel(const std::string& file)
 {
     // Names with further extensions are for pseudo-loaders and may be no files themselves.
@@ -61,12 +80,9 @@ osg::ref_ptr<osg::Node> readModel(const std::string& file)
         throw Failure(kCannotLoad, "cannot load " + file + ": it is cut short");
     }
 
-    osgDB::Registry* registry = osgDB::Registry::instance();
-    const osg::ref_ptr<osgDB::Options> options =
-        registry->getOptions() ? registry->getOptions()->cloneOptions() : new osgDB::Options;
-    options->setPluginStringData("ForceReadingImage",
-                                 "true"); // keeps the names of images that are missing
-    osgDB::ReaderWriter::ReadResult result = registry->readNode(file, options.get());
+    const osg::ref_ptr<osgDB::Options> options = readingOptions();
+    osgDB::ReaderWriter::ReadResult result =
+        osgDB::Registry::instance()->readNode(file, options.get());
     if (!result.validNode()) throw cannotLoad(file, result);
     return result.getNode();
 }
@@ -82,6 +98,23 @@ osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files)
         scene->addChild(readModel(file));
     }
     return scene;
+}
+
+osg::ref_ptr<osg::Node> readSceneText(const std::string& text)
+{
+    const std::string name = "the text";
+    std::istringstream stream(text);
+    if (text.compare(0, std::strlen(kOsgtHeader), kOsgtHeader) != 0)
+        throw Failure(kCannotLoad, "cannot load " + name + ": it does not begin with " +
+                                       kOsgtHeader + ", as .osgt files do");
+    if (isCutShort(stream)) throw Failure(kCannotLoad, "cannot load " + name + ": it is cut short");
+    stream.clear();
+    stream.seekg(0);
+    osgDB::ReaderWriter* reader = osgDB::Registry::instance()->getReaderWriterForExtension("osgt");
+    if (!reader) throw Failure(kCannotLoad, "OpenSceneGraph has no plugin for .osgt");
+    osgDB::ReaderWriter::ReadResult result = reader->readNode(stream, readingOptions().get());
+    if (!result.validNode()) throw cannotLoad(name, result);
+    return result.getNode();
 }
 
 Failure cannotLoad(const std::string& file, const osgDB::ReaderWriter::ReadResult& result)

@@ -1,23 +1,12 @@
-// Camera.h - the view of the scene and the background. Layer: apps.
+// Camera.h - the view of the scene that the options ask for. Layer: apps.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include "Options.h"
-#include "apps/common/StoredView.h"
-
-#include <osg/Matrixd>
-#include <osg/Node>
-#include <osg/Vec4>
+#include "apps/common/PlacedCamera.h"
 
 namespace osgRayTrace::app
 {
-
-struct Camera
-{
-    osg::Matrixd view;
-    osg::Matrixd projection;
-    osg::Vec4 clearColor; ///< colour of the scene's first osg::ClearNode, or else osgViewer's
-};
 
 /// Returns the view that osgviewer opens with, for the scene as it is now.
 Placement homePlacement(const Options& options, osg::Node& scene);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -280,4 +281,34 @@ TEST_CASE("renderer: what was rendered before does not show", "[api][renderer]")
         osg::Vec3d(0.0, -6.0, 3.0), osg::Vec3d(0.0, 0.0, 0.5), osg::Vec3d(0.0, 0.0, 1.0)));
     REQUIRE(travelled->render());
     CHECK(sameBytes(travelled->getColorImage(), straight->getColorImage()));
+}
+
+TEST_CASE("renderer: ids have the node paths of what is seen", "[api][renderer]")
+{
+    const osg::ref_ptr<osg::Group> scene = room();
+    scene->setName("room");
+    scene->getChild(1)->setName("roof");
+    const auto renderer = rendererOf(scene);
+    CHECK(renderer->getIdPaths().empty());
+    REQUIRE(renderer->render());
+    const std::vector<std::string> paths = renderer->getIdPaths();
+    const auto ids = renderer->getChannelImage("id"),
+               position = renderer->getChannelImage("position");
+    REQUIRE(paths.size() > 1);
+    CHECK(paths[0].empty());
+    int roof = 0, floor = 0;
+    for (int pixel = 0; pixel < ids->s() * ids->t(); ++pixel)
+    {
+        const auto id = static_cast<std::size_t>(floats(*ids)[pixel]);
+        REQUIRE(id < paths.size());
+        const float height = floats(*position)[3 * pixel + 2];
+        if (id > 0 && std::abs(height - 1.0f) < 1e-3f && ++roof)
+            CHECK(paths[id] == "room/roof/Geometry");
+        if (id > 0 && std::abs(height) < 1e-3f && ++floor)
+            CHECK(paths[id] == "room/Geode/Geometry");
+    }
+    CHECK((roof > 0 && floor > 0));
+
+    renderer->dirtyScene();
+    CHECK(renderer->getIdPaths().empty());
 }
