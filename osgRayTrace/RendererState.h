@@ -52,6 +52,7 @@ struct Renderer::Implementation
 
     int firstPass = 0;
     bool wholePasses = false;
+    std::function<int()> passSource;
     std::optional<PassSums> nextSums; ///< sums that the next render() begins with
 
     Statistics statistics;

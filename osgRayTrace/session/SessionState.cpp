@@ -142,6 +142,7 @@ void SessionState::resetFilm(bool continues)
         }
     film.reset(view.width, view.height, sumsKind);
     filmPasses = PassSet();
+    wantedPass.reset();
     filmFirstPass = firstPass;
     tracedPasses = ownPasses = 0;
     learntPasses.clear();
