@@ -10,6 +10,7 @@
 #   - accel alone includes Embree (and apps/osgraytracebench, which measures against Embree)
 #   - base/Parallel.cpp alone includes TBB, session/denoise/DenoiseOidn.cpp alone includes Open Image
 #     Denoise
+#   - apps/group/MpiGroup.cpp alone includes MPI
 #   - base to session include neither OpenSceneGraph nor OpenGL
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
@@ -103,6 +104,9 @@ macro(check_include file layer include)
     endif()
     if(include MATCHES "^OpenImageDenoise/" AND NOT file STREQUAL "osgRayTrace/session/denoise/DenoiseOidn.cpp")
         report("${file}" "includes Open Image Denoise (${include}); session/denoise/DenoiseOidn.cpp alone may")
+    endif()
+    if(include MATCHES "^mpi\\.h$" AND NOT file STREQUAL "apps/group/MpiGroup.cpp")
+        report("${file}" "includes MPI (${include}); apps/group/MpiGroup.cpp alone may")
     endif()
     if((include MATCHES "^draco/" AND NOT file MATCHES "^osgPlugins/gltf/Draco(Mesh|Bounds)\\.(h|cpp)$")
        OR (include MATCHES "^meshoptimizer" AND NOT file STREQUAL "osgPlugins/gltf/MeshoptView.cpp")

@@ -30,4 +30,17 @@ else()
     endif()
 endif()
 
+# MPI is optional (OSGRAYTRACE_HAS_MPI), and osgraytrace alone links it. Its interface for C is enough.
+set(OSGRAYTRACE_HAS_MPI FALSE)
+if(OSGRAYTRACE_MPI)
+    set(MPI_CXX_SKIP_MPICXX TRUE)
+    find_package(MPI 3.0 QUIET COMPONENTS CXX)
+    set(OSGRAYTRACE_HAS_MPI ${MPI_CXX_FOUND})
+endif()
+if(OSGRAYTRACE_HAS_MPI)
+    message(STATUS "MPI: built in, version ${MPI_CXX_VERSION}")
+else()
+    message(STATUS "MPI: left out, off or not found (OSGRAYTRACE_MPI)")
+endif()
+
 include(OsgRayTraceGltfLibraries)

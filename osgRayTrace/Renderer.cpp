@@ -116,6 +116,7 @@ bool Renderer::render(double seconds, double relativeError, const Progress& prog
 
     engine::StopRule rule;
     rule.passes = self.settings->getMaxPasses();
+    rule.nextPass = self.passSource;
     if (relativeError > 0.0) rule.relativeError = relativeError;
     try
     {
@@ -144,6 +145,16 @@ void Renderer::setFirstPass(int pass)
 void Renderer::setWholePasses(bool on)
 {
     _implementation->wholePasses = on;
+}
+
+void Renderer::setPassSource(const std::function<int()>& next)
+{
+    _implementation->passSource = next;
+}
+
+std::string Renderer::getPictureText() const
+{
+    return _implementation->pictureName();
 }
 
 PassSums Renderer::getPassSums() const

@@ -47,7 +47,7 @@ osg::ref_ptr<const osg::Light> viewerHeadlight()
 }
 
 /// Returns the text that names an image.
-std::string pictureName(const RenderedInputs& inputs)
+std::string textOf(const RenderedInputs& inputs)
 {
     return pictureText({inputs.traced->scene(), *inputs.settings, inputs.view, inputs.projection,
                         inputs.width, inputs.height});
@@ -94,6 +94,12 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
         engine::setImageStatistics(statistics, result);
         return progress(statistics);
     };
+    if (rule.nextPass)
+        rule.nextPass = [&, next = std::move(rule.nextPass)]
+        {
+            rendered = inputs; // it may ask for the picture before the first pass
+            return next();
+        };
     const engine::RenderProgress result = session->render(rule, keepGoing);
     if (result.status.code != StatusCode::InvalidView) rendered = inputs;
     engine::setImageStatistics(statistics, result);
@@ -105,11 +111,17 @@ engine::PassSums Renderer::Implementation::checkedSums(const RenderedInputs& inp
 {
     const PassSums sums = std::move(*nextSums);
     nextSums.reset();
-    const std::string problem = whyNotOf(sums, pictureName(inputs));
+    const std::string problem = whyNotOf(sums, textOf(inputs));
     if (!problem.empty()) throw EngineError(StatusCode::InvalidView, problem);
     std::optional<engine::PassSums> own = engineSums(sums);
     if (!own) throw EngineError(StatusCode::InvalidView, "the sums of passes are damaged");
     return std::move(*own);
+}
+
+/// Returns the text that names the session's image; empty before the first one.
+std::string Renderer::Implementation::pictureName() const
+{
+    return rendered.traced ? textOf(rendered) : std::string();
 }
 
 PassSums Renderer::Implementation::passSums() const
@@ -117,7 +129,7 @@ PassSums Renderer::Implementation::passSums() const
     std::optional<engine::PassSums> sums = session ? session->passSums() : std::nullopt;
     if (!sums || sums->passes.empty() || !rendered.traced) return {};
     PassSums result = publicSums(std::move(*sums));
-    result.picture = pictureName(rendered);
+    result.picture = pictureName();
     result.displayReferred = rendered.traced->scene().displayReferred;
     return result;
 }

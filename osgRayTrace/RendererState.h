@@ -63,6 +63,7 @@ struct Renderer::Implementation
 
     int firstPass = 0;
     bool wholePasses = false;
+    std::function<int()> passSource;
     std::optional<PassSums> nextSums; ///< sums that the next render() begins with
 
     Statistics statistics;
@@ -85,6 +86,7 @@ struct Renderer::Implementation
     void render(engine::StopRule rule, double seconds,
                 const std::function<bool(const Statistics&)>& progress);
     engine::PassSums checkedSums(const RenderedInputs& inputs);
+    std::string pictureName() const;
     PassSums passSums() const;
     std::vector<std::string> idPaths() const;
     void placeHomeView();

@@ -47,7 +47,9 @@ void checkParts(const Options& options)
     {
         if (given) throw Failure(kUsage, std::string(option) + " excludes " + other);
     };
-    const char* const part = options.checkpoint.empty() ? "--passes A:B" : "--checkpoint";
+    const char* const part = options.mpi                  ? "--mpi"
+                             : options.checkpoint.empty() ? "--passes A:B"
+                                                          : "--checkpoint";
     if (options.isPart())
     {
         exclude(part, "--frames", options.frames.has_value());
@@ -57,6 +59,7 @@ void checkParts(const Options& options)
         throw Failure(kUsage, "--checkpoint " + options.checkpoint + ": the name ends in .exr");
     if (options.merged.empty()) return;
     exclude("--merge", "models", !options.models.empty());
+    exclude("--merge", "--mpi", options.mpi);
     exclude("--merge", "--aov", !options.channels.empty());
     exclude("--merge", "--stats", !options.statistics.empty());
     exclude("--merge", "--report", options.report);

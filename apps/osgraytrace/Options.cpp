@@ -191,6 +191,10 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                    "no MODEL")
         ->option_text("FILE.exr ...");
 
+    app.add_flag("--mpi", options.mpi,
+                 "Shares the passes among the processes that mpirun or srun has started; the files "
+                 "are those of one process, bit by bit");
+
     app.add_option("--aov", options.channels, "Extra EXR channels: " + commaSeparated(kChannels))
         ->option_text("NAME,...")
         ->delimiter(',')

@@ -48,6 +48,8 @@ struct Options
     double interval = 60.0;          ///< time between two writings of the checkpoint [s]
     std::vector<std::string> merged; ///< checkpoints to join; empty: a picture is rendered
 
+    bool mpi = false; ///< whether the processes that mpirun has started share the passes
+
     double seconds = 0.0;       ///< 0: no limit
     double relativeError = 0.0; ///< 0: no target
     std::vector<std::string> channels;
@@ -65,7 +67,7 @@ struct Options
     std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
 
     /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
-    bool isPart() const { return !checkpoint.empty() || firstPass > 0; }
+    bool isPart() const { return !checkpoint.empty() || firstPass > 0 || mpi; }
 
     /// Returns how many passes the picture has if no other limit ends it.
     int mostPasses() const { return settings->getMaxPasses() - firstPass; }

@@ -6,7 +6,7 @@
 #include "Options.h"
 #include "Progress.h"
 
-#include <osgRayTrace/Statistics>
+#include <osgRayTrace/Renderer>
 
 #include <osg/Image>
 #include <osg/Node>
@@ -29,6 +29,21 @@ struct Picture
 /// Renders with osgRayTrace::Renderer. Throws Failure(kCannotRender).
 Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
                              Progress& progress);
+
+class Group;
+
+/// Renders with osgRayTrace::Renderer as rank 0 of a group. Throws Failure.
+Picture renderInGroup(const Options& options, osg::Node& scene, const Camera& camera,
+                      Progress& progress, Group& group);
+
+/// Makes passes for rank 0 of the group, till it wants no more.
+void helpInGroup(const Options& options, osg::Node& scene, const Camera& camera, Group& group);
+
+/// Returns a renderer of the scene for the options.
+osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, const Camera& camera);
+
+/// Returns the images and channels of a renderer that has rendered. Throws Failure(kCannotRender).
+Picture pictureOf(const Renderer& renderer, const Options& options);
 
 /// Renders through a RayTraceDrawable in an OpenGL context. Throws Failure(kCannotRender).
 Picture renderInContext(const Options& options, osg::Node& scene, const Camera& camera,

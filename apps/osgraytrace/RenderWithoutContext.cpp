@@ -11,8 +11,7 @@
 namespace osgRayTrace::app
 {
 
-Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
-                             Progress& progress)
+osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, const Camera& camera)
 {
     osg::ref_ptr<Renderer> renderer = new Renderer;
     renderer->setScene(&scene);
@@ -21,9 +20,32 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     renderer->setClearColor(camera.clearColor);
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
-
-    renderer->setFirstPass(options.firstPass);
     renderer->setWholePasses(options.isPart());
+    return renderer;
+}
+
+Picture pictureOf(const Renderer& renderer, const Options& options)
+{
+    Picture picture;
+    picture.radiance = renderer.getColorImage();
+    picture.display = renderer.getDisplayImage();
+    if (!picture.radiance || !picture.display)
+        throw Failure(kCannotRender, "no memory for the images");
+    picture.statistics = renderer.getStatistics();
+    for (const std::string& channel : options.channels)
+    {
+        const osg::ref_ptr<osg::Image> image = renderer.getChannelImage(channel);
+        if (!image) throw Failure(kCannotRender, "no memory for channel " + channel);
+        picture.channels[channel] = image;
+    }
+    return picture;
+}
+
+Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
+                             Progress& progress)
+{
+    const osg::ref_ptr<Renderer> renderer = newRenderer(options, scene, camera);
+    renderer->setFirstPass(options.firstPass);
     CheckpointKeeper keeper(options, camera.clearColor, *renderer);
 
     const auto show = [&](const Statistics& statistics)
@@ -50,19 +72,8 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     if (!rendered && !isInterrupted())
         throw Failure(kCannotRender, renderer->getStatistics().message);
 
-    Picture picture;
+Picture picture = pictureOf(*renderer, options);
     picture.code = kept;
-    picture.radiance = renderer->getColorImage();
-    picture.display = renderer->getDisplayImage();
-    if (!picture.radiance || !picture.display)
-        throw Failure(kCannotRender, "no memory for the images");
-    picture.statistics = renderer->getStatistics();
-    for (const std::string& channel : options.channels)
-    {
-        const osg::ref_ptr<osg::Image> image = renderer->getChannelImage(channel);
-        if (!image) throw Failure(kCannotRender, "no memory for channel " + channel);
-        picture.channels[channel] = image;
-    }
     return picture;
 }
 

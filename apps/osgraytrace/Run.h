@@ -15,9 +15,15 @@ namespace osgRayTrace::app
 
 constexpr const char* kProgram = "osgraytrace";
 
-/// Renders the picture that the options ask for, and writes it. Returns the exit code; throws
-/// Failure.
-int runPicture(Options options);
+class Group;
+
+/// Renders the picture that the options ask for, and writes it; in the group, if there is one,
+/// whose rank 0 this is. Returns the exit code; throws Failure.
+int runPicture(Options options, Group* group = nullptr);
+
+/// Renders the picture together with the other processes that mpirun has started; rank 0 writes it.
+/// Returns the exit code; throws Failure.
+int runInGroup(const Options& options);
 
 /// Renders the frames that the options ask for one after the other, and writes them. Each looks as
 /// if it were the only one. Throws Failure; the frames before it are written then.
@@ -33,8 +39,12 @@ void checkFiles(const Options& options);
 /// Takes the settings of the scene; those of the command line win. Throws Failure(kCannotLoad).
 void takeSettingsOf(osg::Node& scene, Options& options);
 
+/// Returns the home view of the scene's first frame, and brings the scene to its time.
+Placement goToPicture(const Options& options, osg::Node& scene);
+
 /// Renders the scene as it is now. Throws Failure.
-Picture render(const Options& options, osg::Node& scene, const Placement& home);
+Picture render(const Options& options, osg::Node& scene, const Placement& home,
+               Group* group = nullptr);
 
 /// Writes a picture and its statistics; all that can be written, whatever else fails. Returns the
 /// exit code.

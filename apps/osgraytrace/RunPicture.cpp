@@ -69,7 +69,8 @@ std::vector<std::string> writableOutputs(const Options& options, int& code)
     return writable;
 }
 
-/// Returns the home view of the scene's first frame, and brings the scene to its time.
+} // namespace
+
 Placement goToPicture(const Options& options, osg::Node& scene)
 {
     SceneClock clock(scene);
@@ -77,8 +78,6 @@ Placement goToPicture(const Options& options, osg::Node& scene)
     clock.goTo(options.at);
     return home;
 }
-
-} // namespace
 
 void takeSettingsOf(osg::Node& scene, Options& options)
 {
@@ -89,11 +88,12 @@ void takeSettingsOf(osg::Node& scene, Options& options)
     if (!error.empty()) throw Failure(kCannotLoad, "materials of the scene: " + error);
 }
 
-Picture render(const Options& options, osg::Node& scene, const Placement& home)
+Picture render(const Options& options, osg::Node& scene, const Placement& home, Group* group)
 {
     const Camera camera = cameraOf(options, scene, home);
     Progress progress(options);
-    Picture picture = options.context == Context::None
+    Picture picture = group ? renderInGroup(options, scene, camera, progress, *group)
+                      : options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
@@ -145,7 +145,7 @@ int writeAll(const Options& options, const std::vector<std::string>& outputs,
     return code;
 }
 
-int runPicture(Options options)
+int runPicture(Options options, Group* group)
 {
     // Steps that can fail without rendering come first.
     checkFiles(options);
@@ -162,7 +162,7 @@ int runPicture(Options options)
     const Placement home = goToPicture(options, *scene);
 
     const OrderlyEnd end; // from here on there are results to write
-    const Picture picture = render(options, *scene, home);
+    const Picture picture = render(options, *scene, home, group);
     std::optional<ErrorMeasures> measures;
     if (reference) measures = errorMeasures(*picture.radiance, *reference);
 

@@ -6,6 +6,7 @@
 #include "apps/common/PluginPath.h"
 #include "apps/common/Program.h"
 #include "apps/common/SceneNames.h"
+#include "apps/group/Launcher.h"
 
 #include <osgRayTrace/MaterialFile>
 
@@ -58,6 +59,9 @@ int runCommandLine(int argc, char** argv)
     }
     const std::string materialsError = options->settings->getMaterialsError();
     if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
+    if (options->mpi) return runInGroup(*options);
+    const std::string alone = whyNotAlone();
+    if (!alone.empty()) throw Failure(kUsage, alone);
     return options->frames ? runFrames(*options) : runPicture(*options);
 }
 

@@ -45,6 +45,11 @@ struct StopRule
     /// mark each; after these the tiles come first that had no pass for the longest time. May be
     /// null.
     const std::vector<uint8_t>* firstTiles = nullptr;
+    /// If nextPass is set, it tells the passes that the image gets, in place of all from the first
+    /// one on. render() asks it on its thread, between passes; a number is above all before it. The
+    /// render ends with a number that is negative, or that the image has. Errors are then estimated
+    /// for relativeError alone.
+    std::function<int()> nextPass;
 };
 
 /// The reasons why photons have less effect than a user may expect.

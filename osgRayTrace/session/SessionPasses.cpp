@@ -182,12 +182,20 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
                        [&](int learnt) { return learnt > pass.number; });
 }
 
-/// Returns the pass to make next, whatever its number.
+/// Returns the next pass that the film is to get; nothing if it is to get no more.
+std::optional<int> SessionState::askForPass(const StopRule& rule) const
+{
+    const int pass = rule.nextPass ? rule.nextPass() : filmPasses.firstMissing(filmFirstPass);
+    const bool isWanted =
+        rule.nextPass ? pass >= 0 && !filmPasses.contains(pass) : pass < rule.passes;
+    return isWanted ? std::optional<int>(pass) : std::nullopt;
+}
+
+/// Returns the pass to make next: the wanted one, or one that it depends on.
 SessionState::NextPass SessionState::nextPass() const
 {
-    const int wanted = filmPasses.firstMissing(filmFirstPass);
-    if (tracedPasses >= photons.sharedPasses()) return {wanted, false};
-    return {tracedPasses, tracedPasses < filmFirstPass || filmPasses.contains(tracedPasses)};
+    const bool learns = tracedPasses < photons.sharedPasses() && tracedPasses < *wantedPass;
+    return {learns ? tracedPasses : *wantedPass, learns};
 }
 
 /// Records that all tiles have had a pass. passes: those that the film has now.
@@ -196,6 +204,7 @@ void SessionState::finishPass(const PassContext& context, const NextPass& pass, 
     filmPasses = std::move(passes);
     if (pass.number == tracedPasses) ++tracedPasses;
     if (!pass.isLearning) ++ownPasses;
+    if (!pass.isLearning) wantedPass.reset();
     photons.finish(filmScene, context, pass.number);
 }
 
@@ -223,16 +232,17 @@ RenderProgress SessionState::run(const StopRule& rule,
     if (!begin()) return progress;
     const std::unique_ptr<Integrator> integrator = newIntegrator(progress.integrator);
     const Clock::time_point start = Clock::now();
-    const bool wantsError = rule.relativeError > 0.0 || static_cast<bool>(keepGoing);
+    const bool wantsError = rule.relativeError > 0.0 || (keepGoing && !rule.nextPass);
     bool shown = true;
     progress.passes = film.passes();
     progress.imageShare = imageShare();
-    if (filmFirstPass > 0 || progress.passes > 0)
+    if (filmFirstPass > 0 || progress.passes > 0 || rule.nextPass)
         photons.choose(filmScene, contextOfPass(0), *workers);
-    const auto isLeft = [&] { return filmPasses.firstMissing(filmFirstPass) < rule.passes; };
     int added = 0; // passes that the film has got from this call
-    for (int newPasses = 0; newPasses < rule.newPasses && isLeft(); ++newPasses)
+    for (int newPasses = 0; newPasses < rule.newPasses; ++newPasses)
     {
+        if (!wantedPass || !rule.nextPass) wantedPass = askForPass(rule);
+        if (!wantedPass) break;
         const NextPass next = nextPass();
         const int pass = next.number;
         if (progress.newTiles >= rule.newTiles) break;

@@ -143,6 +143,7 @@ void SessionState::resetFilm(bool continues, const PassSums* sums)
         }
     film.reset(view.width, view.height, sumsKind);
     filmPasses = PassSet();
+    wantedPass.reset();
     filmFirstPass = firstPass;
     tracedPasses = ownPasses = 0;
     learntPasses.clear();

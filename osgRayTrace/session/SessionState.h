@@ -32,6 +32,7 @@ struct SessionState
     };
 
     bool begin();
+    std::optional<int> askForPass(const StopRule& rule) const;
     NextPass nextPass() const;
     TileCounts renderTile(const PassContext& context, const Integrator& integrator,
                           const NextPass& pass, int tile);
@@ -82,10 +83,11 @@ struct SessionState
     std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;
     Film film;
-    PassSet filmPasses;    // the whole passes of the film
-    int filmFirstPass = 0; // passes before it are not the film's
-    int tracedPasses = 0;  // of the first passes, those that this session has traced for the film
-    int ownPasses = 0;     // passes of the film that this session has added
+    PassSet filmPasses;            // the whole passes of the film
+    std::optional<int> wantedPass; // the next one that the film is to get
+    int filmFirstPass = 0;         // passes before it are not the film's
+    int tracedPasses = 0; // of the first passes, those that this session has traced for the film
+    int ownPasses = 0;    // passes of the film that this session has added
     std::vector<int> learntPasses; // by tile: learning passes that it has had; empty: none
     bool filmContinues = false;    // whether tiles without a pass have depths of the image before
     std::vector<SurfaceSample> samples; // samples of the film's pixels, if it has them

@@ -74,6 +74,53 @@ TEST_CASE("pass sums: a renderer goes on from those of its picture, and from no 
     CHECK_THAT(renderer->getStatistics().message, Contains("scene "));
 }
 
+TEST_CASE("pass sums: a program tells a renderer which passes to make", "[api]")
+{
+    // What photons depend on is learnt from the first 16 passes, whoever makes them.
+    for (const auto integrator : {RayTraceSettings::PATH, RayTraceSettings::SPPM})
+    {
+        CAPTURE(integrator);
+        const osg::ref_ptr<osg::Group> scene = room();
+        const auto rendererOfPasses = [&](int first, int end)
+        {
+            const auto renderer = rendererOf(scene.get());
+            renderer->getSettings()->setIntegrator(integrator);
+            renderer->getSettings()->setPhotons(2000);
+            renderer->setFirstPass(first);
+            renderer->getSettings()->setMaxPasses(end);
+            return renderer;
+        };
+        const auto sumsOf = [&](int first, int end)
+        {
+            const auto renderer = rendererOfPasses(first, end);
+            REQUIRE(renderer->render());
+            return renderer->getPassSums();
+        };
+        PassSums joined = sumsOf(2, 4);
+        REQUIRE(joined.add(sumsOf(20, 21)) == "");
+
+        const auto renderer = rendererOfPasses(0, 1); // neither is looked at
+        CHECK(renderer->getPictureText() == "");
+        std::vector<int> passes{2, 3, 20, -1};
+        std::vector<std::string> before;
+        renderer->setPassSource(
+            [&]
+            {
+                before.push_back(renderer->getPassSums().passes);
+                CHECK(renderer->getPictureText() == joined.picture);
+                const int pass = passes.front();
+                passes.erase(passes.begin());
+                return pass;
+            });
+        REQUIRE(renderer->render());
+        CHECK(passes.empty());
+        CHECK(before == std::vector<std::string>{"", "2", "2-3", "2-3,20"});
+        const PassSums sums = renderer->getPassSums();
+        CHECK(sums.passes == joined.passes);
+        CHECK((sums.low == joined.low && sums.high == joined.high && sums.depth == joined.depth));
+    }
+}
+
 TEST_CASE("pass sums: what cannot be joined stays as it was, and the reason is told", "[api]")
 {
     const PassSums whole = part(0, 2);

@@ -29,6 +29,8 @@ check(osgRayTrace/base/A.cpp "#include <oneapi/tbb/task_arena.h>" "includes TBB"
 check(osgRayTrace/base/A.cpp "#include <tbb/parallel_for.h>" "includes TBB")
 check(osgRayTrace/session/denoise/DenoiseOidn.cpp "#include <OpenImageDenoise/oidn.h>" "")
 check(osgRayTrace/session/denoise/Denoiser.cpp "#include <OpenImageDenoise/oidn.h>" "includes Open Image Denoise")
+check(apps/group/MpiGroup.cpp "#include <mpi.h>" "")
+check(apps/group/Group.h "#include <mpi.h>" "includes MPI")
 check(osgRayTrace/AreaLight "#include \"osgRayTrace/scene/Light.h\"" "public header")
 check(osgRayTrace/AreaLight "#include <glm/glm.hpp>" "public header")
 check(osgRayTrace/AreaLight "#include <osg/Node>\n#include <osgRayTrace/Export>\n#include <memory>" "")
