@@ -147,7 +147,8 @@ def renderOurs(task, options):
     for place in ("eye", "center", "up"):
         command += ["--" + place, *[repr(float(number)) for number in camera[place]]]
     command += ["--fovy", str(camera["fovy"]), "--integrator", "path"]
-    command += ["--passes", str(task["samples"]), "--max-bounces", str(task["bounces"])]
+    # Cycles counts where a path scatters, osgraytrace its ways from there: one more to the sky.
+    command += ["--passes", str(task["samples"]), "--max-bounces", str(task["bounces"] + 1)]
     command += ["--seed", str(task["seed"])]
     libraries = os.path.abspath(os.path.join(options.build, "lib"))
     environment = {**os.environ, "OSG_LIBRARY_PATH": f"{libraries}:{libraries}/osgPlugins-3.6.5"}
