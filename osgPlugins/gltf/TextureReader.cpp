@@ -26,6 +26,7 @@ constexpr std::uint64_t kMostSets = 8;
 constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 26;
 constexpr std::uint64_t kMostPixelsOfAll = std::uint64_t(1) << 29;
 constexpr std::uint64_t kHeaderBytes = std::uint64_t(1) << 20; ///< an image's size is among them
+constexpr std::uint64_t kMostWebpBytes = 4 * kMostPixels; ///< as many as the largest image decoded
 
 osg::Texture::WrapMode wrapOf(const JsonPlace& sampler, const char* member)
 {
@@ -221,7 +222,11 @@ osg::ref_ptr<osg::Image> TextureReader::webpImage(const std::string& bytes, cons
 osg::ref_ptr<osg::Image> TextureReader::webpFile(const std::string& path, const JsonPlace& uri)
 {
     FileBytes file(path);
-    _document->take(file.size(), uri);
+    if (file.size() > kMostWebpBytes)
+    {
+        _document->note(uri.path() + ": '" + path + "' is too large for an image");
+        return namedImage(path);
+    }
     std::string bytes(static_cast<std::size_t>(file.size()), '\0');
     file.read(0, bytes.size(), bytes.data());
     const osg::ref_ptr<osg::Image> image = webpImage(bytes, uri);

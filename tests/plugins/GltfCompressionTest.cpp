@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 using namespace osgRayTrace::test;
@@ -337,6 +338,15 @@ TEST_CASE("gltf: a draco mesh of many triangles in few bytes takes no memory for
     checkRefusal(model, "triangles, and the indices 2");
     model["accessors"].back()["count"] = 3ull << 28;
     checkRefusal(model, "out of proportion");
+
+    // The indices of 2^21 triangles would take 6 MiB, but draco's tables 320.
+    const std::string fewer = "\x80\x80\x80\x01";
+    const std::string others =
+        std::string("DRACO\x02\x02\x01\x01\0\0", 11) + '\0' + fewer + fewer + std::string(40, '\0');
+    model = dracoModel(grid, others);
+    model["accessors"].back()["componentType"] = 5121;
+    model["accessors"].back()["count"] = 3 << 21;
+    checkRefusal(model, "would take memory out of proportion");
 }
 
 TEST_CASE("gltf: draco's orientations and metadata take no memory that is only said", "[gltf]")
@@ -427,6 +437,23 @@ TEST_CASE("gltf: textures in WebP have the pixels of the picture", "[gltf]")
                                       rgba.data() + 4 * (y * kWidth + x), channels) == 0);
         }
     }
+}
+
+TEST_CASE("gltf: WebP files do not count against the memory of their model", "[gltf]")
+{
+    // The model may take 64 MiB and 16 times its own size. What stands behind an image is not read.
+    const TemporaryFolder folder;
+    std::ofstream(folder / "long.webp", std::ios::binary)
+        << webpBytes(std::vector<unsigned char>(4 * 8 * 8, 77), 8, 8);
+    std::filesystem::resize_file(folder / "long.webp", 70 << 20);
+    const auto image = imageOf(triangleModel(), {{"uri", "long.webp"}}, folder / "");
+    CHECK(image->s() == 8);
+
+    std::filesystem::resize_file(folder / "long.webp", std::uintmax_t(1) << 33); // takes no disk
+    const Listening listening;
+    const auto none = imageOf(triangleModel(), {{"uri", "long.webp"}}, folder / "");
+    CHECK_FALSE(none->data());
+    CHECK(listening.text().find("is too large for an image") != std::string::npos);
 }
 
 TEST_CASE("gltf: damaged WebP images are named, and the model is there", "[gltf]")
