@@ -4,6 +4,7 @@
 
 #include "OptionChecks.h"
 #include "apps/common/Failure.h"
+#include "apps/common/Program.h"
 #include "osgRayTrace/base/NumberText.h"
 
 #include <CLI/CLI.hpp>
@@ -266,6 +267,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
     CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",
                  "osgraytrace");
     app.footer(kFooter);
+    app.set_version_flag("--version", versionText("osgraytrace"), "Prints the version and exits");
     addOptions(app, options, raw);
     addSettings(app, options);
     try
@@ -275,6 +277,11 @@ std::optional<Options> parseOptions(int argc, char** argv)
     catch (const CLI::CallForHelp&)
     {
         std::cout << app.help();
+        return std::nullopt;
+    }
+    catch (const CLI::CallForVersion& version)
+    {
+        std::cout << version.what() << '\n';
         return std::nullopt;
     }
     catch (const CLI::ParseError& error)

@@ -72,8 +72,8 @@ struct Options
 /// A limit of passes that is RayTraceSettings' own default states nothing.
 void takeStoredSettings(const RayTraceSettings& stored, Options& options);
 
-/// Returns the options; nothing if the command line asked for help, which was then printed. Throws
-/// Failure(kUsage).
+/// Returns the options; nothing if the command line asked for help or the version, which was then
+/// printed. Throws Failure(kUsage).
 std::optional<Options> parseOptions(int argc, char** argv);
 
 /// Returns every RayTraceSettings option as a Markdown table, as the documents show it.
