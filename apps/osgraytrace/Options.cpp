@@ -35,6 +35,8 @@ struct RawOptions
     double fovyDegrees = 0.0;
     std::string context;
     std::string frames;
+    std::vector<double> sun;
+    std::string headlight;
 };
 
 std::string commaSeparated(std::string range)
@@ -126,6 +128,33 @@ void addSettings(CLI::App& app, Options& options)
     }
 }
 
+void addLightOptions(CLI::App& app, Options& options, RawOptions& raw)
+{
+    app.add_option("--environment", options.lights.environment,
+                   "Image by longitude and latitude that lights the models from all around")
+        ->option_text("FILE");
+    app.add_option("--environment-turn", options.lights.turnDegrees,
+                   "Turns it about +z, anticlockwise seen from above")
+        ->option_text("DEGREES")
+        ->needs("--environment")
+        ->check(finite());
+    app.add_option("--environment-strength", options.lights.strength, "Factor of its radiance (1)")
+        ->option_text("FACTOR")
+        ->needs("--environment")
+        ->check(positive());
+    app.add_option("--sun", raw.sun,
+                   "Directional light: clockwise from +y as on a compass, and above the horizon "
+                   "[degrees]; --light-angle 0.53 makes it as large as the sun")
+        ->option_text("AZIMUTH ELEVATION")
+        ->expected(2)
+        ->check(finite());
+    app.add_option("--headlight", raw.headlight,
+                   "Light at the eye for models without a light 0; on, unless --environment or "
+                   "--sun is given")
+        ->option_text("on|off")
+        ->check(oneOf("on|off"));
+}
+
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
 {
     app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("...");
@@ -154,6 +183,7 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->option_text("DEGREES")
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
+    addLightOptions(app, options, raw);
     app.add_option("--at", options.at,
                    "Time that the model is shown at: animations go on till then")
         ->option_text("SECONDS")
@@ -241,6 +271,13 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         if (!options.frames)
             throw Failure(kUsage, "--frames " + raw.frames + ": is not FIRST:LAST, as 0:250");
     }
+    if (!raw.sun.empty())
+    {
+        if (std::abs(raw.sun[1]) > 90.0)
+            throw Failure(kUsage, "--sun: the elevation is from -90 to 90 degrees");
+        options.lights.sun = Sun{raw.sun[0], raw.sun[1]};
+    }
+    if (!raw.headlight.empty()) options.headlight = raw.headlight == "on";
     if (raw.context == "osmesa") options.context = Context::OsMesa;
     if (raw.context == "egl") options.context = Context::Egl;
 }

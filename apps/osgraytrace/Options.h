@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Frames.h"
+#include "apps/common/AddedLights.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -38,6 +39,9 @@ struct Options
     std::optional<osg::Vec3d> up;
     std::optional<double> fovyDegrees;
 
+    AddedLights lights;            ///< beside those of the models
+    std::optional<bool> headlight; ///< nothing: on unless lights are added
+
     double at = 0.0;                  ///< time that the scene is shown at [s]
     std::optional<FrameRange> frames; ///< nothing: one picture
     double framesPerSecond = 25.0;
@@ -63,6 +67,9 @@ struct Options
     /// Holds the settings that the command line states: names and values.
     std::vector<std::pair<std::string, std::string>> assignments;
     std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
+
+    /// Returns whether scenes without a light of number 0 get one at the eye.
+    bool hasHeadlight() const { return headlight.value_or(!lights.any()); }
 
     /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
     bool isPart() const { return !checkpoint.empty() || firstPass > 0; }

@@ -19,6 +19,7 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     renderer->setViewMatrix(camera.view);
     renderer->setProjectionMatrix(camera.projection);
     renderer->setClearColor(camera.clearColor);
+    renderer->setHeadlight(options.hasHeadlight());
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
 

@@ -157,7 +157,7 @@ int runPicture(Options options)
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);
-    const osg::ref_ptr<osg::Node> scene = readScene(options.models);
+    const osg::ref_ptr<osg::Node> scene = withLights(readScene(options.models), options.lights);
     takeSettingsOf(*scene, options);
     const Placement home = goToPicture(options, *scene);
 
