@@ -4,7 +4,7 @@
 #include "tests/apps/ComparedPictures.h"
 #include "tests/apps/Program.h"
 
-#include "osgPlugins/exr/ExrImage.h"
+#include "osgPlugins/exr/ExrPlanes.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -355,4 +355,25 @@ TEST_CASE("osgraytrace: --help names every option of the command line", "[apps]"
     {
         CHECK_THAT(outcome.output, Contains(option));
     }
+}
+
+TEST_CASE("app: an EXR file says how its picture was made", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "--seed 5 --integrator path --fovy 30 -o a.exr")
+                .exitCode == 0);
+    osgRayTrace::engine::ExrPlanes planes;
+    REQUIRE(osgRayTrace::engine::readExrPlanes(folder / "a.exr", planes).empty());
+    CHECK(planes.texts["osgRayTrace.integrator"] == "path");
+    CHECK(planes.texts["osgRayTrace.passes"] == "4");
+    CHECK(planes.texts["osgRayTrace.seed"] == "5");
+    CHECK(std::stod(planes.texts["osgRayTrace.error"]) > 0.0);
+
+    // The camera is written as options: they make the same picture, except for rounding.
+    const Outcome again = osgraytrace(
+        folder, kBox + kQuick + "--seed 5 --integrator path -o b.exr --reference a.exr " +
+                    planes.texts["osgRayTrace.camera"]);
+    INFO(planes.texts["osgRayTrace.camera"] << again.errors);
+    CHECK(measuresIn(again.output).rmse >= 0.0);
+    CHECK(measuresIn(again.output).rmse < 1e-3);
 }
