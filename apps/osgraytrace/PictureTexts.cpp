@@ -38,6 +38,20 @@ std::string optionsOf(const Camera& camera)
     return text;
 }
 
+/// Returns the options that crop the picture; empty if it is whole.
+std::string cropOf(const Options& options)
+{
+    if (!options.crop) return "";
+    const Crop& crop = *options.crop;
+    std::string text = " --size";
+    for (const int value : {crop.fullWidth, crop.fullHeight})
+        text += ' ' + std::to_string(value);
+    text += " --crop";
+    for (const int value : {crop.left, crop.top, options.width, options.height})
+        text += ' ' + std::to_string(value);
+    return text;
+}
+
 } // namespace
 
 std::map<std::string, std::string> pictureTexts(const Options& options, const Camera& camera,
@@ -48,7 +62,7 @@ std::map<std::string, std::string> pictureTexts(const Options& options, const Ca
         {"osgRayTrace.integrator", statistics.integrator},
         {"osgRayTrace.passes", std::to_string(statistics.passes)},
         {"osgRayTrace.seed", std::to_string(options.settings->getSeed())},
-        {"osgRayTrace.camera", optionsOf(camera)},
+        {"osgRayTrace.camera", optionsOf(camera) + cropOf(options)},
     };
     if (std::isfinite(statistics.relativeError))
         texts["osgRayTrace.error"] = textOf(statistics.relativeError);

@@ -14,8 +14,9 @@ namespace osgRayTrace::app
 {
 
 /// Returns the attributes of an EXR file: osgRayTrace.version, .integrator, .passes, .seed, .camera
-/// (as options that place it) and, if there is one, .error (estimated, relative). Equal pictures
-/// have equal texts: the time that they took is not among them.
+/// (of the whole picture, as options that place it, and crop it) and, if there is one, .error
+/// (estimated, relative). Equal pictures have equal texts: the time that they took is not among
+/// them.
 std::map<std::string, std::string> pictureTexts(const Options& options, const Camera& camera,
                                                 const Statistics& statistics);
 

@@ -92,12 +92,14 @@ void takeSettingsOf(osg::Node& scene, Options& options)
 
 Picture render(const Options& options, osg::Node& scene, const Placement& home)
 {
-    const Camera camera = cameraOf(options, scene, home);
+    const Camera whole = cameraOf(options, scene, home);
+    Camera camera = whole;
+    camera.projection = croppedProjection(options, whole.projection);
     Progress progress(options);
     Picture picture = options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
-    picture.texts = pictureTexts(options, camera, picture.statistics);
+    picture.texts = pictureTexts(options, whole, picture.statistics);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     const bool drawnByOsg =
         options.context != Context::None && partsDrawnByOsg(picture.statistics) > 0;
