@@ -39,6 +39,12 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/lib")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}/bin")
 
+# Versions 0.x with another x are other libraries to the loader, as they are to find_package.
+set(OSGRAYTRACE_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+# What is installed belongs to the package of the programs and plugins, unless an install says otherwise.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tools)
+
 # OSG looks for plugins in <library path>/osgPlugins-<version>.
 set(OSGRAYTRACE_PLUGIN_DIR "osgPlugins-${OPENSCENEGRAPH_VERSION}")
 
@@ -65,16 +71,30 @@ function(osgraytrace_precompile target)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
-# osgraytrace_add_plugin(<target> SOURCES ... LIBRARIES ...) adds a module that OSG finds by its
-# name.
+# If the libraries are installed into the folder of OSG's own, as by a distribution's package, plugins that OSG has, too,
+# must not replace them: these are in the folder osgRayTrace there (osgPlugins/OwnFolder.h prefers it).
+cmake_path(GET OSG_LIBRARY PARENT_PATH folderOfOsg)
+set(OSGRAYTRACE_APART_DIR "")
+if(folderOfOsg STREQUAL CMAKE_INSTALL_FULL_LIBDIR)
+    set(OSGRAYTRACE_APART_DIR "osgRayTrace/")
+endif()
+
+# osgraytrace_add_plugin(<target> [ALSO_IN_OSG] SOURCES ... LIBRARIES ...) adds a module that OSG finds by its
+# name. ALSO_IN_OSG: OSG may have a plugin of the same name.
 function(osgraytrace_add_plugin target)
-    cmake_parse_arguments(PLUGIN "" "" "SOURCES;LIBRARIES" ${ARGN})
+    cmake_parse_arguments(PLUGIN "ALSO_IN_OSG" "" "SOURCES;LIBRARIES" ${ARGN})
+    set(apart "")
+    set(up "")
+    if(PLUGIN_ALSO_IN_OSG AND OSGRAYTRACE_APART_DIR)
+        set(apart "${OSGRAYTRACE_APART_DIR}")
+        set(up "/..")
+    endif()
     add_library(${target} MODULE ${PLUGIN_SOURCES})
     target_link_libraries(${target} PRIVATE ${PLUGIN_LIBRARIES} osgRayTraceBuild)
     set_target_properties(${target} PROPERTIES
         PREFIX ""
         LIBRARY_OUTPUT_DIRECTORY "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/${OSGRAYTRACE_PLUGIN_DIR}"
-        INSTALL_RPATH "\$ORIGIN/.."
+        INSTALL_RPATH "\$ORIGIN/..${up}"
         BUILD_RPATH_USE_ORIGIN ON)
-    install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${OSGRAYTRACE_PLUGIN_DIR}")
+    install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/${apart}${OSGRAYTRACE_PLUGIN_DIR}")
 endfunction()

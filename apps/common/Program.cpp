@@ -5,6 +5,8 @@
 #include "apps/common/Interruption.h"
 #include "apps/common/Output.h"
 
+#include <osgRayTrace/Version>
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -53,6 +55,11 @@ int reportFailure(const std::string& name, const Failure& failure)
 {
     std::cerr << name << ": " << failure.what() << '\n';
     return failure.code();
+}
+
+std::string versionText(const std::string& name)
+{
+    return name + " " + osgRayTraceGetVersion();
 }
 
 int runProgram(const std::string& name, const std::function<int()>& run)

@@ -21,6 +21,7 @@ constexpr long kMostPasses = 1 << 24;
 
 constexpr const char* kHelp =
     "Usage: osgraytrace-run [--passes N] [--report FILE] PROGRAM [ARGUMENTS...]\n"
+    "       osgraytrace-run --version\n"
     "Starts an OpenSceneGraph program that knows nothing of osgRayTrace with its scenes ray "
     "traced.\n"
     "\n"
@@ -45,7 +46,9 @@ std::optional<std::filesystem::path> ourLibrary()
 {
     std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    for (const char* folder : {OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS, "../lib"})
+    constexpr const char* kFolders[] = {OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS "/osgRayTrace",
+                                        OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS, "../lib"};
+    for (const char* folder : kFolders)
     {
         const auto library =
             (program.parent_path() / folder / OSGRAYTRACE_RUN_LIBRARY).lexically_normal();
@@ -100,6 +103,11 @@ void reportTo(const char* file)
 int main(int argc, char** argv)
 {
     const bool help = argc > 1 && (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h"));
+    if (argc == 2 && !std::strcmp(argv[1], "--version"))
+    {
+        std::cout << "osgraytrace-run " OSGRAYTRACE_PROJECT_VERSION << std::endl;
+        return std::cout ? 0 : kCannotWrite;
+    }
     int first = 1;
     for (; first + 1 < argc && (isPasses(argv[first]) || isReport(argv[first])); first += 2)
     {

@@ -4,6 +4,7 @@
 
 #include "OptionChecks.h"
 #include "apps/common/Failure.h"
+#include "apps/common/Program.h"
 #include "osgRayTrace/base/NumberText.h"
 
 #include <CLI/CLI.hpp>
@@ -30,10 +31,13 @@ const char* const kFooter =
 struct RawOptions
 {
     std::vector<int> size;
+    std::vector<int> crop;
     std::vector<double> eye, center, up;
     double fovyDegrees = 0.0;
     std::string context;
     std::string frames;
+    std::vector<double> sun;
+    std::string headlight;
 };
 
 std::string commaSeparated(std::string range)
@@ -125,6 +129,33 @@ void addSettings(CLI::App& app, Options& options)
     }
 }
 
+void addLightOptions(CLI::App& app, Options& options, RawOptions& raw)
+{
+    app.add_option("--environment", options.lights.environment,
+                   "Image by longitude and latitude that lights the models from all around")
+        ->option_text("FILE");
+    app.add_option("--environment-turn", options.lights.turnDegrees,
+                   "Turns it about +z, anticlockwise seen from above")
+        ->option_text("DEGREES")
+        ->needs("--environment")
+        ->check(finite());
+    app.add_option("--environment-strength", options.lights.strength, "Factor of its radiance (1)")
+        ->option_text("FACTOR")
+        ->needs("--environment")
+        ->check(positive());
+    app.add_option("--sun", raw.sun,
+                   "Directional light: clockwise from +y as on a compass, and above the horizon "
+                   "[degrees]; --light-angle 0.53 makes it as large as the sun")
+        ->option_text("AZIMUTH ELEVATION")
+        ->expected(2)
+        ->check(finite());
+    app.add_option("--headlight", raw.headlight,
+                   "Light at the eye for models without a light 0; on, unless --environment or "
+                   "--sun is given")
+        ->option_text("on|off")
+        ->check(oneOf("on|off"));
+}
+
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
 {
     app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("...");
@@ -134,6 +165,11 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->allow_extra_args(false);
     app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
 
+    app.add_option("--crop", raw.crop,
+                   "Renders a part of the picture alone: pixels from its left and its top, width, "
+                   "height")
+        ->option_text("X Y W H")
+        ->expected(4);
     app.add_option("--camera", options.camera, "Camera of the model, by its name")
         ->option_text("NAME");
     app.add_option("--eye", raw.eye, "Position of the camera")
@@ -153,6 +189,7 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->option_text("DEGREES")
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
+    addLightOptions(app, options, raw);
     app.add_option("--at", options.at,
                    "Time that the model is shown at: animations go on till then")
         ->option_text("SECONDS")
@@ -227,6 +264,18 @@ osg::Vec3d vectorOf(const std::vector<double>& values)
     return osg::Vec3d(values[0], values[1], values[2]);
 }
 
+/// Makes the size that of a part of the picture. Throws Failure(kUsage) if it is not within.
+void applyCrop(const std::vector<int>& crop, Options& options)
+{
+    const auto within = [](int begin, int size, int full)
+    { return begin >= 0 && size >= 1 && begin < full && size <= full - begin; };
+    if (!within(crop[0], crop[2], options.width) || !within(crop[1], crop[3], options.height))
+        throw Failure(kUsage, "--crop: X Y W H is not within the picture of --size");
+    options.crop = Crop{crop[0], crop[1], options.width, options.height};
+    options.width = crop[2];
+    options.height = crop[3];
+}
+
 void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
 {
     if (!raw.size.empty())
@@ -234,6 +283,7 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         options.width = raw.size[0];
         options.height = raw.size[1];
     }
+    if (!raw.crop.empty()) applyCrop(raw.crop, options);
     if (!raw.eye.empty()) options.eye = vectorOf(raw.eye);
     if (!raw.center.empty()) options.center = vectorOf(raw.center);
     if (!raw.up.empty()) options.up = vectorOf(raw.up);
@@ -244,6 +294,13 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         if (!options.frames)
             throw Failure(kUsage, "--frames " + raw.frames + ": is not FIRST:LAST, as 0:250");
     }
+    if (!raw.sun.empty())
+    {
+        if (std::abs(raw.sun[1]) > 90.0)
+            throw Failure(kUsage, "--sun: the elevation is from -90 to 90 degrees");
+        options.lights.sun = Sun{raw.sun[0], raw.sun[1]};
+    }
+    if (!raw.headlight.empty()) options.headlight = raw.headlight == "on";
     if (raw.context == "osmesa") options.context = Context::OsMesa;
     if (raw.context == "egl") options.context = Context::Egl;
 }
@@ -270,6 +327,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
     CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",
                  "osgraytrace");
     app.footer(kFooter);
+    app.set_version_flag("--version", versionText("osgraytrace"), "Prints the version and exits");
     addOptions(app, options, raw);
     addSettings(app, options);
     try
@@ -279,6 +337,11 @@ std::optional<Options> parseOptions(int argc, char** argv)
     catch (const CLI::CallForHelp&)
     {
         std::cout << app.help();
+        return std::nullopt;
+    }
+    catch (const CLI::CallForVersion& version)
+    {
+        std::cout << version.what() << '\n';
         return std::nullopt;
     }
     catch (const CLI::ParseError& error)

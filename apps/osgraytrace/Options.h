@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Frames.h"
+#include "apps/common/AddedLights.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -23,12 +24,21 @@ enum class Context
     Egl,
 };
 
+/// A part of the picture [pixels], from its left and its top.
+struct Crop
+{
+    int left = 0, top = 0;
+    int fullWidth = 0, fullHeight = 0; ///< of the picture
+};
+
 struct Options
 {
     std::vector<std::string> models;
     std::vector<std::string> outputs;
     int width = 1280; ///< [pixels]
     int height = 720; ///< [pixels]
+
+    std::optional<Crop> crop; ///< width and height are then those of the part
 
     // The following members describe the view; members that are not given are taken from the scene:
     // see Camera.h.
@@ -37,6 +47,9 @@ struct Options
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> up;
     std::optional<double> fovyDegrees;
+
+    AddedLights lights;            ///< beside those of the models
+    std::optional<bool> headlight; ///< nothing: on unless lights are added
 
     double at = 0.0;                  ///< time that the scene is shown at [s]
     std::optional<FrameRange> frames; ///< nothing: one picture
@@ -66,6 +79,15 @@ struct Options
     std::vector<std::pair<std::string, std::string>> assignments;
     std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
 
+    /// Returns the width by the height of the picture, of which a crop is a part.
+    double aspect() const
+    {
+        return crop ? double(crop->fullWidth) / crop->fullHeight : double(width) / height;
+    }
+
+    /// Returns whether scenes without a light of number 0 get one at the eye.
+    bool hasHeadlight() const { return headlight.value_or(!lights.any()); }
+
     /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
     bool isPart() const { return !checkpoint.empty() || firstPass > 0 || mpi; }
 
@@ -77,8 +99,8 @@ struct Options
 /// A limit of passes that is RayTraceSettings' own default states nothing.
 void takeStoredSettings(const RayTraceSettings& stored, Options& options);
 
-/// Returns the options; nothing if the command line asked for help, which was then printed. Throws
-/// Failure(kUsage).
+/// Returns the options; nothing if the command line asked for help or the version, which was then
+/// printed. Throws Failure(kUsage).
 std::optional<Options> parseOptions(int argc, char** argv);
 
 /// Returns every RayTraceSettings option as a Markdown table, as the documents show it.

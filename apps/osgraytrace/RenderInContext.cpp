@@ -99,11 +99,21 @@ Statistics accumulate(const Options& options, osgViewer::Viewer& viewer,
     return statistics;
 }
 
+/// Without a light the view would switch GL_LIGHTING off for the whole scene.
+void darken(osg::Light& light)
+{
+    const osg::Vec4 black(0.0f, 0.0f, 0.0f, 1.0f);
+    light.setAmbient(black);
+    light.setDiffuse(black);
+    light.setSpecular(black);
+}
+
 void setUp(osgViewer::Viewer& viewer, const Options& options, RayTracedScene& traced,
            const Camera& camera)
 {
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setSceneData(&traced);
+    if (!options.hasHeadlight()) darken(*viewer.getLight());
     osg::Camera* master = viewer.getCamera();
     master->setGraphicsContext(createContext(options).get());
     master->setViewport(0, 0, options.width, options.height);

@@ -18,6 +18,7 @@ osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, con
     renderer->setViewMatrix(camera.view);
     renderer->setProjectionMatrix(camera.projection);
     renderer->setClearColor(camera.clearColor);
+    renderer->setHeadlight(options.hasHeadlight());
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
     renderer->setWholePasses(options.isPart());

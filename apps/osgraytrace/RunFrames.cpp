@@ -57,7 +57,8 @@ bool runFrame(const Options& options, int frame, osg::Node& scene, const Placeme
 /// A scene on its way through the frames.
 struct Animation
 {
-    explicit Animation(const Options& asked) : options(asked), scene(readScene(asked.models))
+    explicit Animation(const Options& asked)
+        : options(asked), scene(withLights(readScene(asked.models), asked.lights))
     {
         takeSettingsOf(*scene, options);
         clock = std::make_unique<SceneClock>(*scene);

@@ -1,6 +1,7 @@
 // RunPicture.cpp - renders a picture and writes it. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "PictureFile.h"
+#include "PictureTexts.h"
 #include "Reference.h"
 #include "Run.h"
 #include "SceneClock.h"
@@ -90,12 +91,15 @@ void takeSettingsOf(osg::Node& scene, Options& options)
 
 Picture render(const Options& options, osg::Node& scene, const Placement& home, Group* group)
 {
-    const Camera camera = cameraOf(options, scene, home);
+    const Camera whole = cameraOf(options, scene, home);
+    Camera camera = whole;
+    camera.projection = croppedProjection(options, whole.projection);
     Progress progress(options);
     Picture picture = group ? renderInGroup(options, scene, camera, progress, *group)
                       : options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
+    picture.texts = pictureTexts(options, whole, picture.statistics);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     const bool drawnByOsg =
         options.context != Context::None && partsDrawnByOsg(picture.statistics) > 0;
@@ -157,7 +161,7 @@ int runPicture(Options options, Group* group)
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);
-    const osg::ref_ptr<osg::Node> scene = readScene(options.models);
+    const osg::ref_ptr<osg::Node> scene = withLights(readScene(options.models), options.lights);
     takeSettingsOf(*scene, options);
     const Placement home = goToPicture(options, *scene);
 

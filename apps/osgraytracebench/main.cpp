@@ -336,6 +336,8 @@ public:
         add("report", "error against time, of all methods on many scenes", addReport);
         add("compare", "which rows of two reports differ by more than their noise", addCompare);
         application.require_subcommand(1);
+        application.set_version_flag("--version", app::versionText(kProgram),
+                                     "Prints the version and exits");
     }
 
     int run() const

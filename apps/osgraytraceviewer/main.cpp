@@ -47,6 +47,7 @@ void describe(osg::ApplicationUsage& usage)
     usage.setDescription("Ray traces models in a window.");
     usage.setCommandLineUsage("osgraytraceviewer [options] MODEL [MODEL ...]");
     usage.addCommandLineOption("-h or --help", "Shows options and keys");
+    usage.addCommandLineOption("--version", "Prints the version and exits");
     for (const RayTraceSettings::Option& option : RayTraceSettings::options())
         usage.addCommandLineOption(
             (option.name == kMaxPasses ? kPasses + std::string(" or ") : "") + "--" + option.name +
@@ -183,6 +184,11 @@ int run(int argc, char** argv)
     osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
     describe(usage);
 
+    if (arguments.read("--version"))
+    {
+        std::cout << versionText("osgraytraceviewer") << '\n';
+        return kDone;
+    }
     const bool help = arguments.read("-h") || arguments.read("--help");
     const Assignments assignments = readSettings(arguments);
     const CaveOptions cave = readCaveOptions(arguments);

@@ -59,6 +59,17 @@ run(${CMAKE_COMMAND} --build "${WORK}/build")
 run("${WORK}/build/consumer")
 run("${WORK}/build/offscreenConsumer")
 
+# pkg-config finds the moved install, too.
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+    set(ENV{PKG_CONFIG_PATH} "${WORK}/moved/${LIBDIR}/pkgconfig")
+    run("${PKG_CONFIG}" --cflags --libs osgRayTrace)
+    separate_arguments(flags UNIX_COMMAND "${output}")
+    run("${COMPILER}" -std=c++17 "-DVERSION_OF_PACKAGE=\"${VERSION}\"" "${SOURCE}/main.cpp" ${flags}
+        "-Wl,-rpath,${WORK}/moved/${LIBDIR}" -o "${WORK}/viaPkgConfig")
+    run("${WORK}/viaPkgConfig")
+endif()
+
 # The installed program finds the installed library and plugins, and so reads the scene and the
 # reference.
 set(share "${WORK}/moved/share/osgRayTrace")
