@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: MIT
 #include "CheckpointKeeper.h"
 
-#include "Checkpoint.h"
 #include "Run.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Program.h"
@@ -33,28 +32,38 @@ CheckpointKeeper::CheckpointKeeper(const Options& options, const osg::Vec4& clea
 
 void CheckpointKeeper::keepIfDue()
 {
+    using Clock = std::chrono::steady_clock;
     if (_options.checkpoint.empty()) return;
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - _kept;
-    if (since.count() < _options.interval) return;
-    try
+    const std::chrono::duration<double> since = Clock::now() - _kept;
+    const bool isWriting =
+        _writing.valid() && _writing.wait_for(Clock::duration(0)) != std::future_status::ready;
+    if (since.count() < _options.interval || isWriting) return;
+    _kept = Clock::now();
+    auto write = [path = _options.checkpoint, kept = checkpoint()]
     {
-        keep();
-    }
-    catch (const Failure& failure)
-    {
-        reportFailure(kProgram, failure);
-        _kept = std::chrono::steady_clock::now();
-    }
+        try
+        {
+            if (!kept.sums.passes.empty()) writeCheckpoint(path, kept);
+        }
+        catch (const std::exception& problem)
+        {
+            reportFailure(kProgram, Failure(kCannotWrite, problem.what()));
+        }
+    };
+    _writing = std::async(std::launch::async, std::move(write));
 }
 
 void CheckpointKeeper::keep()
 {
     if (_options.checkpoint.empty()) return;
-    PassSums sums = _renderer.getPassSums();
-    if (!sums.passes.empty())
-        writeCheckpoint(_options.checkpoint,
-                        {std::move(sums), _options.settings->getExposure(), _clearColor});
-    _kept = std::chrono::steady_clock::now();
+    if (_writing.valid()) _writing.wait();
+    const Checkpoint last = checkpoint();
+    if (!last.sums.passes.empty()) writeCheckpoint(_options.checkpoint, last);
+}
+
+Checkpoint CheckpointKeeper::checkpoint() const
+{
+    return {_renderer.getPassSums(), _options.settings->getExposure(), _clearColor};
 }
 
 } // namespace osgRayTrace::app
