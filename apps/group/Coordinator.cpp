@@ -19,6 +19,7 @@ using Kind = GroupMessage::Kind;
 
 constexpr int kCannotRender = 3;  ///< exit code
 constexpr double kSilence = 60.0; ///< time after which a rank is given up [s]
+constexpr double kAnswer = 0.5;   ///< the same, if it was told to end
 
 /// The first line in which two texts differ.
 struct Difference
@@ -78,8 +79,13 @@ RayTotals Coordinator::rays() const
 
 std::optional<int> Coordinator::silentRank(double now) const
 {
+    const bool isTime = _asked && now - *_asked > kAnswer;
     for (std::size_t i = 1; i < _ranks.size(); ++i)
-        if (_ranks[i].isThere && now - _ranks[i].heard > kSilence) return static_cast<int>(i);
+    {
+        const Rank& rank = _ranks[i];
+        if (rank.isThere && now - rank.heard > kSilence) return static_cast<int>(i);
+        if (isTime && rank.heard < *_asked) return static_cast<int>(i);
+    }
     return std::nullopt;
 }
 
@@ -117,6 +123,7 @@ void Coordinator::take(int rank, const GroupMessage& message, double now)
     case Kind::Round:
     case Kind::Sum:
     case Kind::End:
+    case Kind::Abort:
     case Kind::Bye:
         break; // are not for rank 0
     }
@@ -193,6 +200,11 @@ bool Coordinator::poll(double now, bool isInterrupted)
     if (_isOver) return true;
 
     const bool cuts = isInterrupted || _isStopped;
+    if (cuts && !_asked)
+    {
+        _asked = now;
+        sendAll(GroupMessage(Kind::Alive));
+    }
     const bool isLate = _plan.seconds > 0.0 && now - _begin >= _plan.seconds && !_given.empty();
     if (!cuts && !isLate) worked = giveLeases(now) || worked;
     if (!_round && !_judgement.valid()) worked = beginRound(now, cuts || isLate, cuts) || worked;

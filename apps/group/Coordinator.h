@@ -69,8 +69,9 @@ public:
     bool isOver() const { return _isOver; }
     const GroupResult& result() const { return _result; }
 
-    /// Returns a rank that has said nothing for a minute, though ranks say something every few
-    /// seconds; nothing if there is none.
+    /// Returns a rank that does not answer; nothing if there is none. A rank has a minute, though
+    /// it says something every few seconds. After a signal it has less than the second that mpirun
+    /// leaves: the signal may have come because the rank is dead.
     std::optional<int> silentRank(double now) const;
 
     /// Returns where a rank is: "rank 3 on n4".
@@ -131,7 +132,8 @@ private:
     double _now = 0.0;
     double _kept = 0.0; ///< when sums were last kept
     bool _isBegun = false;
-    bool _isStopped = false; ///< whether some rank was told to end
+    bool _isStopped = false;      ///< whether some rank was told to end
+    std::optional<double> _asked; ///< when ranks were asked whether they are alive
     bool _isOver = false;
     GroupResult _result;
 };

@@ -38,14 +38,15 @@ struct GroupMessage
         Ready,  ///< the sums of passes text are ready for round first; flag: they have a high part
         Failed, ///< the rank can make no passes, because of text; first: exit code
         Stop,   ///< the rank was told to end
-        Alive,  ///< nothing else
+        Alive,  ///< nothing else; as a question of rank 0, too
 
         // From rank 0 to any rank.
         Take,  ///< make passes [first, end)
         Round, ///< get ready for round first, with all passes taken; flag: leave those not begun
         Sum,   ///< add up; flag: the high parts as well
         End,   ///< make no more passes
-        Bye,   ///< leave
+        Abort, ///< leave at once: a rank is dead
+        Bye,   ///< leave; the last kind
     };
 
     explicit GroupMessage(Kind k = Kind::Alive) : kind(k) {}

@@ -8,8 +8,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <list>
+#include <thread>
 
 namespace osgRayTrace::app
 {
@@ -97,6 +99,14 @@ public:
 
     [[noreturn]] void abort(int code) override
     {
+        // Open MPI waits for its launcher, which may be busy with ending the job itself.
+        std::thread(
+            [code]
+            {
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                std::_Exit(code);
+            })
+            .detach();
         MPI_Abort(MPI_COMM_WORLD, code);
         std::_Exit(code);
     }

@@ -18,10 +18,25 @@ namespace
 using Kind = GroupMessage::Kind;
 using std::chrono::microseconds;
 
+constexpr int kCannotRender = 3;           ///< exit code
 constexpr double kAliveInterval = 5.0;     ///< [s]
 constexpr microseconds kShortestWait(100); ///< after something happened
 constexpr microseconds kLongestWait(4000); ///< after a while without; a look costs some 30 us
-constexpr microseconds kSumWait(200);      ///< while sums go over the network
+
+/// Ends the group because a rank is dead. MPI alone would leave the others to the launcher, which
+/// takes its time.
+void abortAll(Group& group, const std::string& dead)
+{
+    std::fprintf(stderr, "osgraytrace: %s does not answer\n", dead.c_str());
+    for (int rank = 1; rank < group.size(); ++rank)
+        group.send(rank, GroupMessage(Kind::Abort));
+    for (int i = 0; i < 10; ++i) // carries the messages
+    {
+        group.receive();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    group.abort(kCannotRender);
+}
 
 /// Waits longer, the longer nothing happens.
 class Pace
@@ -29,8 +44,10 @@ class Pace
 public:
     void wait(PassWorker& worker, bool worked)
     {
+        // Sums go on only while somebody looks at them, piece by piece. They take a second.
+        if (worker.isSumming()) return std::this_thread::yield();
         _wait = worked ? kShortestWait : std::min(2 * _wait, kLongestWait);
-        worker.waitForNews(worker.isSumming() ? kSumWait : _wait);
+        worker.waitForNews(_wait);
     }
 
 private:
@@ -69,11 +86,7 @@ GroupResult renderInGroup(Group& group, PassWork work, GroupPlan plan, Coordinat
         const double now = hooks.now();
         worked = coordinator.poll(now, hooks.isInterrupted()) || worked;
         if (const auto silent = coordinator.silentRank(now))
-        {
-            std::fprintf(stderr, "osgraytrace: %s has been silent for a minute\n",
-                         coordinator.nameOf(*silent).c_str());
-            group.abort(3);
-        }
+            abortAll(group, coordinator.nameOf(*silent));
         const std::string& note = coordinator.result().note;
         if (!noted && !note.empty()) std::fprintf(stderr, "osgraytrace: %s\n", note.c_str());
         noted = noted || !note.empty();
@@ -96,8 +109,11 @@ void helpToRender(Group& group, PassWork work, const GroupHooks& hooks)
         bool worked = false;
         while (const auto received = isOver ? std::nullopt : group.receive())
         {
-            worker.take(received->second);
-            isOver = received->second.kind == Kind::End;
+            const GroupMessage& message = received->second;
+            worker.take(message);
+            isOver = message.kind == Kind::End;
+            if (message.kind == Kind::Abort) group.abort(kCannotRender);
+            if (message.kind == Kind::Alive) group.send(0, message); // rank 0 wants to know
             worked = true;
         }
         worked = worker.poll() || worked;

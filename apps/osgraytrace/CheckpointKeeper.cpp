@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: MIT
 #include "CheckpointKeeper.h"
 
-#include "Checkpoint.h"
 #include "Run.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Output.h"
@@ -14,6 +13,28 @@
 
 namespace osgRayTrace::app
 {
+
+namespace
+{
+
+/// Writes a checkpoint if it has passes. Returns the exit code: a failure is printed, as the picture
+/// is there still, and there may be room later.
+int write(const std::string& path, const Checkpoint& checkpoint, bool hasPasses)
+{
+    try
+    {
+        if (hasPasses && checkpoint.sums.passes.empty())
+            throw cannotWrite(path, "there is not enough memory");
+        if (hasPasses) writeCheckpoint(path, checkpoint);
+        return kDone;
+    }
+    catch (const Failure& failure)
+    {
+        return reportFailure(kProgram, failure);
+    }
+}
+
+} // namespace
 
 CheckpointKeeper::CheckpointKeeper(const Options& options, const osg::Vec4& clearColor,
                                    Renderer& renderer)
@@ -34,31 +55,34 @@ CheckpointKeeper::CheckpointKeeper(const Options& options, const osg::Vec4& clea
 
 void CheckpointKeeper::keepIfDue()
 {
+    using Clock = std::chrono::steady_clock;
     if (_options.checkpoint.empty()) return;
-    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - _kept;
-    if (since.count() < _options.interval) return;
-    keep();
+    const std::chrono::duration<double> since = Clock::now() - _kept;
+    const bool isWriting =
+        _writing.valid() && _writing.wait_for(Clock::duration(0)) != std::future_status::ready;
+    if (since.count() < _options.interval || isWriting) return;
+    _kept = Clock::now();
+    try
+    {
+        _writing = std::async(std::launch::async, write, _options.checkpoint, checkpoint(),
+                              _renderer.getStatistics().passes > 0);
+    }
+    catch (const std::exception& problem) // there is no memory, or no thread
+    {
+        reportFailure(kProgram, cannotWrite(_options.checkpoint, problem.what()));
+    }
 }
 
 int CheckpointKeeper::keep()
 {
     if (_options.checkpoint.empty()) return kDone;
-    int code = kDone;
-    try
-    {
-        PassSums sums = _renderer.getPassSums();
-        if (sums.passes.empty() && _renderer.getStatistics().passes > 0)
-            throw cannotWrite(_options.checkpoint, "there is not enough memory");
-        if (!sums.passes.empty())
-            writeCheckpoint(_options.checkpoint,
-                            {std::move(sums), _options.settings->getExposure(), _clearColor});
-    }
-    catch (const Failure& failure)
-    {
-        code = reportFailure(kProgram, failure);
-    }
-    _kept = std::chrono::steady_clock::now();
-    return code;
+    if (_writing.valid()) _writing.wait();
+    return write(_options.checkpoint, checkpoint(), _renderer.getStatistics().passes > 0);
+}
+
+Checkpoint CheckpointKeeper::checkpoint() const
+{
+    return {_renderer.getPassSums(), _options.settings->getExposure(), _clearColor};
 }
 
 } // namespace osgRayTrace::app

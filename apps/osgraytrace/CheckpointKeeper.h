@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "Checkpoint.h"
 #include "Options.h"
 
 #include <osgRayTrace/Renderer>
@@ -9,6 +10,7 @@
 #include <osg/Vec4>
 
 #include <chrono>
+#include <future>
 
 namespace osgRayTrace::app
 {
@@ -22,7 +24,8 @@ public:
     /// before.
     CheckpointKeeper(const Options& options, const osg::Vec4& clearColor, Renderer& renderer);
 
-    /// Writes the file if the interval is over. A failure is printed: there may be room later.
+    /// Writes the file if the interval is over, on a thread of its own: the render goes on. A
+    /// failure is printed: there may be room later.
     void keepIfDue();
 
     /// Writes the file if there are whole passes. Returns the exit code: a failure is printed, as
@@ -30,10 +33,13 @@ public:
     int keep();
 
 private:
+    Checkpoint checkpoint() const;
+
     const Options& _options;
     osg::Vec4 _clearColor;
     Renderer& _renderer;
     std::chrono::steady_clock::time_point _kept;
+    std::future<int> _writing; ///< ends before all else goes
 };
 
 } // namespace osgRayTrace::app

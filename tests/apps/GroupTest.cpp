@@ -55,14 +55,19 @@ TEST_CASE("group: ranks of any number and speed make each pass once", "[apps]")
 
 TEST_CASE("group: sums that fill their integers are added without overflow", "[apps]")
 {
+    // Ranks have sums of about 2^60, in normal form, and all of them together 2^63.
+    const std::int64_t scale = (std::int64_t(1) << 28) + 12345;
     ThreadCluster cluster;
     cluster.plan = planOf(40);
     cluster.ranks.resize(7);
     for (Rank& rank : cluster.ranks)
-        rank.scale = std::int64_t(1) << 26; // below 2^57 a pass
+    {
+        rank.scale = scale;
+        rank.microseconds = 2000;
+    }
     const GroupResult result = cluster.run();
     REQUIRE(result.sums);
-    CHECK(areEqual(*result.sums, sumsOf(PassSet(40), std::int64_t(1) << 26)));
+    CHECK(areEqual(*result.sums, sumsOf(PassSet(40), scale)));
 }
 
 TEST_CASE("group: a render goes on from the passes that are there", "[apps]")
@@ -154,6 +159,7 @@ TEST_CASE("group: a signal to any rank ends the render, and no pass is lost", "[
             rank.microseconds = 200;
             rank.learning = seed % 2 ? 16 : 0;
         }
+        cluster.clockRate = 0.05; // a busy machine is not a dead one
         cluster.interruptedRank = static_cast<int>(seed % 3);
         cluster.interruptedAtPass = static_cast<int>(7 * seed);
         const GroupResult result = cluster.run();
@@ -212,6 +218,23 @@ TEST_CASE("group: a rank that says nothing any more ends the group", "[apps]")
     const GroupResult result = cluster.run();
     CHECK(result.failure == "aborted");
     CHECK(result.exitCode == 3);
+}
+
+TEST_CASE("group: a rank that is dead when a signal comes ends the group at once", "[apps]")
+{
+    ThreadCluster cluster;
+    cluster.plan = planOf(1 << 24);
+    cluster.ranks.resize(3);
+    cluster.ranks[1].failsAtPass = 4;
+    cluster.ranks[1].diesSilently = true;
+    for (Rank& rank : cluster.ranks)
+        rank.microseconds = 1000;
+    cluster.interruptedRank = 0;
+    cluster.interruptedAtPass = 40;
+    const auto begin = std::chrono::steady_clock::now();
+    const GroupResult result = cluster.run();
+    CHECK(result.failure == "aborted");
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(30)); // not a minute
 }
 
 TEST_CASE("group: sums are kept once in an interval, and each keeps all passes before it", "[apps]")

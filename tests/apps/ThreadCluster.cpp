@@ -15,30 +15,28 @@ using engine::PassSet;
 namespace
 {
 
-/// Returns a value that a pass adds to a sum.
-std::int64_t valueOf(int pass, std::size_t i, std::int64_t scale)
+/// Returns the sums of one pass: values below 2^31 * scale, the same for equal passes.
+engine::PassSums sumsOfPass(int pass, std::int64_t scale)
 {
-    const auto random = static_cast<std::int32_t>(
-        engine::hash(static_cast<std::uint32_t>(pass), static_cast<std::uint32_t>(i)));
-    return random * scale;
+    engine::PassSums sums;
+    sums.width = kWidth;
+    sums.height = kHeight;
+    sums.passes.add(pass);
+    sums.low.resize(engine::PassSums::kPlanes * sums.pixels());
+    for (std::size_t i = 0; i < sums.low.size(); ++i)
+        sums.low[i] = scale * (engine::hash(std::uint32_t(pass), std::uint32_t(i)) >> 1);
+    sums.depth.assign(sums.pixels(), static_cast<float>(pass));
+    return sums;
 }
 
 } // namespace
 
 engine::PassSums sumsOf(const PassSet& passes, std::int64_t scale)
 {
-    engine::PassSums sums;
-    sums.width = kWidth;
-    sums.height = kHeight;
-    sums.passes = passes;
-    sums.low.assign(engine::PassSums::kPlanes * sums.pixels(), 0);
+    engine::PassSums sums = sumsOfPass(passes.ranges().front().first, scale);
     for (const auto& [first, end] : passes.ranges())
         for (int pass = first; pass < end; ++pass)
-            for (std::size_t i = 0; i < sums.low.size(); ++i)
-                sums.low[i] += valueOf(pass, i, scale);
-    const int least = passes.empty() ? -1 : passes.ranges().front().first;
-    sums.depth.assign(sums.pixels(), static_cast<float>(least));
-    engine::normalise(sums);
+            if (!sums.passes.contains(pass)) engine::addSums(sumsOfPass(pass, scale), sums);
     return sums;
 }
 

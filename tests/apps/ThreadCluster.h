@@ -14,7 +14,7 @@
 constexpr int kWidth = 5;
 constexpr int kHeight = 3;
 
-/// Returns the sums of passes that are numbers.
+/// Returns the sums of passes that are numbers; there is one at least.
 osgRayTrace::engine::PassSums sumsOf(const osgRayTrace::engine::PassSet& passes,
                                      std::int64_t scale = 1);
 
