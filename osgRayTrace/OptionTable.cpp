@@ -143,7 +143,7 @@ const std::vector<OptionRow>& optionTable()
     static const engine::NeverDestroyed<std::vector<OptionRow>> table(std::vector<OptionRow>{
         choiceRow("integrator", kIntegratorWords, &S::getIntegrator, &S::setIntegrator,
                   "How light is computed; auto: whitted for fixed-function scenes, path for "
-                  "physical ones, photon-caustics for those with mirrors or glass"),
+                  "physical ones, photon-caustics for those with metal or glass"),
         choiceRow("light-sampling", kLightSamplingWords, &S::getLightSampling, &S::setLightSampling,
                   "How points on area lights are chosen"),
         numberRow("light-samples", kLightSamplesRange, &S::getLightSamples, &S::setLightSamples,
@@ -208,7 +208,7 @@ const std::vector<OptionRow>& optionTable()
                   &S::setRadiusSchedule,
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
         switchRow("photon-guiding", &S::getPhotonGuiding, &S::setPhotonGuiding,
-                  "Photons for mirrors and glass go where the views see their light"),
+                  "Photons for metal and glass go where the views see their light"),
         choiceRow("denoise", kDenoiseWords, &S::getDenoise, &S::setDenoise,
                   "Takes out the noise of few passes; oidn: by Open Image Denoise, where that is "
                   "built in"),

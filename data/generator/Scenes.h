@@ -23,8 +23,8 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant);
 osg::ref_ptr<osg::Group> grids();
 
 /// Returns three metal rings on a table, with caustics seen directly and in a looking-glass
-/// [McCarthy17, fig. 6]. Lengths are centimetres, z is up.
-osg::ref_ptr<osg::Group> rings();
+/// [McCarthy17, fig. 6]. Lengths are centimetres, z is up. roughness: of the rings.
+osg::ref_ptr<osg::Group> rings(double roughness = 0.0);
 
 /// Returns a glass sphere and a glass of water in a box, under a small lamp. Lengths are
 /// centimetres, z is up.

@@ -78,12 +78,23 @@ void ChunkTracer::absorb(PhotonPathBlock& block, const SurfaceLanes& surface) co
     }
 }
 
+/// Returns whether no look-up would ever read a photon: glossy surfaces look up caustics alone that
+/// have met nothing but mirrors. The mean of a textured surface may be rough although a point is
+/// glossy.
+bool ChunkTracer::isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const
+{
+    if (!((_glossy >> i) & 1u)) return false;
+    if (!_inputs.traced.materials()[surface.material[i]].constant) return false;
+    return _inputs.options.use != PhotonUse::Caustics || block.direct[i] == 0;
+}
+
 /// Stores the photons of lanes; those whose power is not finite are counted instead.
 void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                         int bounce)
 {
     for (const int i : lanesIn(lanes))
     {
+        if (isUnread(block, surface, i)) continue;
         const Vec3 power = laneOf(block.power, i);
         if (isFinite(power))
             _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
@@ -126,7 +137,7 @@ void ChunkTracer::scatterOne(const PhotonPathBlock& block, const SurfaceLanes& s
 /// Sends the photons of a block on from their surfaces.
 void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce)
 {
-    const bool mustMirror = mustReflect(bounce);
+    const LaneMask mustMirror = mirrorsOnly(bounce);
     if (mustMirror) _diffuse = 0;
     if (!(_diffuse | _smooth | _general)) return;
     facingNormalLanes(_rays.ray, surface, _normal);
@@ -152,7 +163,7 @@ void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, i
         _scattered.mirrored = _smooth;
     }
     for (const int i : lanesIn(_general))
-        scatterOne(block, surface, i, mustMirror);
+        scatterOne(block, surface, i, ((mustMirror >> i) & 1u) != 0);
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
     _paths.append(block, alive);
@@ -163,7 +174,7 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
 {
     const MaterialTable& materials = _inputs.traced.materials();
     LaneMask stores = 0;
-    _diffuse = _smooth = _general = 0;
+    _diffuse = _smooth = _general = _glossy = 0;
     for (const int i : lanesIn(surface.hits))
     {
         const LaneMask lane = 1u << i;
@@ -183,6 +194,7 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
         }
         _bsdfs[i] = bsdf;
         _general |= lane;
+        if (bsdf->isGlossy()) _glossy |= lane;
         if (storesPhotons(*bsdf)) stores |= lane;
     }
     return stores | _diffuse;

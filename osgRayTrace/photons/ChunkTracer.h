@@ -65,11 +65,10 @@ private:
         return BounceFirst + 2 * static_cast<uint32_t>(bounce);
     }
 
-    /// Returns whether photons are wanted only from paths whose surface at this bounce is
-    /// mirror-like.
-    bool mustReflect(int bounce) const
+    /// Returns the lanes whose photons are wanted only if a mirror-like lobe scatters them.
+    LaneMask mirrorsOnly(int bounce) const
     {
-        return bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
+        return bounce == 0 && _inputs.options.use == PhotonUse::Caustics ? ~_glossy : 0;
     }
 
     void emitBlock(uint32_t first, uint32_t count);
@@ -84,6 +83,7 @@ private:
     void absorb(PhotonPathBlock& block, const SurfaceLanes& surface) const;
     void leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const;
     LaneMask classify(const SurfaceLanes& surface);
+    bool isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const;
     void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                int bounce);
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
@@ -103,6 +103,7 @@ private:
     LaneMask _smooth = 0;  ///< lanes on smooth interfaces
     InterfaceLanes _interfaces;
     LaneMask _general = 0;  ///< lanes on all other surfaces that are not black
+    LaneMask _glossy = 0;   ///< lanes of _general on glossy surfaces
     LaneMask _oneSided = 0; ///< lanes on faces that all rays pass from one side
     LaneMask _seen = 0;     ///< lanes of _oneSided on the side of the face that is seen
     const Bsdf* _bsdfs[kLanes] = {};

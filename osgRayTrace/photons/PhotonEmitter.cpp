@@ -79,10 +79,10 @@ struct PhotonEmitter::Cones
 };
 
 PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights,
-                             float guidedShare)
+                             float guidedShare, PhotonUse use)
     : _traced(traced), _lights(lights), _guidedShare(guidedShare)
 {
-    PhotonTargets targets = photonTargets(traced, kMaxTargets);
+    PhotonTargets targets = photonTargets(traced, use, kMaxTargets);
     _scene = targets.scene;
     _targets = std::move(targets.spheres);
     if (_targets.empty()) _guidedShare = 0.0f;

@@ -46,20 +46,21 @@ struct StartLanes
 };
 
 /// Chooses lights in proportion to power, and directions by a mixture. A share of the directions is
-/// uniform within the cones (for distant lights: discs) that hold the mirror-like and transmissive
-/// instances, or follows a PhotonGuide there; the rest are as the light shines. The density is that
-/// of the mixture, so every share gives the same mean [Veach97, sect. 9.2]. Thread safe.
+/// uniform within the cones (for distant lights: discs) that hold what makes caustics, or follows a
+/// PhotonGuide there; the rest are as the light shines. The density is that of the mixture, so
+/// every share gives the same mean [Veach97, sect. 9.2]. Thread safe.
 class PhotonEmitter
 {
 public:
     /// lights: the scene's, with those of eye space placed. guidedShare: share of the photons that
-    /// are guided, in [0,1); 0 is used if nothing in the scene is specular.
-    PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float guidedShare);
+    /// are guided, in [0,1); 0 is used if nothing in the scene makes caustics. use: of the photons.
+    PhotonEmitter(const TracedScene& traced, const std::vector<Light>& lights, float guidedShare,
+                  PhotonUse use = PhotonUse::Caustics);
 
     /// Returns false if no light has any power.
     bool emits() const { return !_cumulative.empty(); }
 
-    /// Returns whether something in the scene reflects like a mirror or transmits.
+    /// Returns whether something in the scene makes caustics.
     bool hasTargets() const { return !_targets.empty(); }
 
     std::optional<PhotonStart> emit(const EmissionPoint& point,

@@ -120,7 +120,8 @@ void PhotonPasses::begin(const PhotonScene& scene)
     if (!sceneOwns) _scene.lights = &_placed;
     _emitter = std::make_unique<PhotonEmitter>(
         *_scene.traced, *_scene.lights,
-        _scene.options.use == PhotonUse::Caustics ? kGuidedCaustics : kGuidedIndirect);
+        _scene.options.use == PhotonUse::Caustics ? kGuidedCaustics : kGuidedIndirect,
+        _scene.options.use);
 }
 
 PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& workers)

@@ -1,4 +1,4 @@
-// PhotonTargets.cpp - spheres around mirrors and glass. Layer: photons.
+// PhotonTargets.cpp - spheres around what makes caustics. Layer: photons.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonTargets.h"
 
@@ -53,10 +53,12 @@ Sphere tightSphere(const Scene& scene, const Instance& instance, const Box& box)
     return {centre, std::sqrt(radius2) * 1.00001f};
 }
 
-/// Returns whether a mirror-like lobe can reflect or transmit a photon.
-bool bendsLight(const MaterialRecord& record)
+/// Returns whether photons that a surface sends on are caustics.
+bool makesCaustics(const MaterialRecord& record, PhotonUse use)
 {
-    if (record.fixedFunction) return false; // highlights are never that narrow
+    if (use == PhotonUse::Caustics && (record.front.isGlossy() || record.back.isGlossy()))
+        return true;
+    if (record.fixedFunction) return false; // highlights are never those of a mirror
     const auto bends = [&](const Bsdf& bsdf)
     {
         if (!bsdf.reflects() && !bsdf.transmits()) return false;
@@ -99,7 +101,7 @@ void group(std::vector<Sphere> spheres, std::size_t limit, std::vector<Sphere>& 
 
 } // namespace
 
-PhotonTargets photonTargets(const TracedScene& traced, std::size_t most)
+PhotonTargets photonTargets(const TracedScene& traced, PhotonUse use, std::size_t most)
 {
     const Scene& scene = traced.scene();
     Box all;
@@ -110,7 +112,7 @@ PhotonTargets photonTargets(const TracedScene& traced, std::size_t most)
         if (box.empty()) continue;
         all.add(box.low);
         all.add(box.high);
-        if (bendsLight(traced.materials()[instance.material]))
+        if (makesCaustics(traced.materials()[instance.material], use))
             single.push_back(tightSphere(scene, instance, box));
     }
     PhotonTargets targets;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/photons/PhotonUse.h"
 
 #include <vector>
 
@@ -19,11 +20,12 @@ struct Sphere
 struct PhotonTargets
 {
     Sphere scene;                ///< holds all geometry
-    std::vector<Sphere> spheres; ///< together hold all instances that mirror or transmit
+    std::vector<Sphere> spheres; ///< together hold all instances that make caustics
 };
 
-/// Finds the targets of a scene. most: number of spheres; if there are more instances, neighbours
-/// share spheres.
-PhotonTargets photonTargets(const TracedScene& traced, std::size_t most);
+/// Finds the targets of a scene: what mirrors or transmits, and for PhotonUse::Caustics also what
+/// is glossy. With PhotonUse::Indirect glossy targets cost more time than they take off the error.
+/// most: number of spheres; if there are more instances, neighbours share spheres.
+PhotonTargets photonTargets(const TracedScene& traced, PhotonUse use, std::size_t most);
 
 } // namespace osgRayTrace::engine

@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 enum class PhotonUse : uint8_t
 {
     None,
-    Caustics, ///< photons whose first surface was mirror-like, there and on all surfaces after
+    Caustics, ///< photons that the first surface sent on by a mirror-like lobe, or that any lobe of
+              ///< a surface sent on that is glossy: Bsdf::isGlossy
     Indirect, ///< photons that have met any surface before
 };
 

@@ -11,6 +11,9 @@ namespace
 /// Below this perceptual roughness a surface reflects like a mirror: alpha = 0.03^2 < 1e-3.
 constexpr float kMirrorRoughness = 0.0316f;
 
+/// Below this perceptual roughness metal is glossy: alpha = 0.5^2 is kRoughAlpha.
+constexpr float kRoughRoughness = 0.5f;
+
 void addMaterial(const Material& material, SceneTraits& traits)
 {
     if (isInvisible(material)) return;
@@ -39,6 +42,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
     const bool isSeen = material.culling != FaceCulling::FrontAndBack; // by camera rays
     traits.physical |= isSeen && (reflects || transmits || material.baseColor != Vec3(0.0f));
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
+    traits.glossy |= material.metallic >= 1.0f && material.roughness < kRoughRoughness;
     traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
 }
 

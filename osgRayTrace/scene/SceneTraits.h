@@ -19,6 +19,7 @@ struct SceneTraits
     bool fixedFunction = false; ///< some material is FixedFunction
     bool physical = false;      ///< some material is Physical and more than a lamp
     bool specular = false;      ///< mirror-like reflection somewhere
+    bool glossy = false;        ///< some metal has a narrow lobe: see Bsdf::isGlossy
     bool transmission = false;
     bool normalMaps = false;  ///< some texture decides on the normals of a surface or its coat
     bool panes = false;       ///< some surface lets light pass straight: see MaterialTable::pane

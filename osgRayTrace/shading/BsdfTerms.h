@@ -10,6 +10,10 @@
 namespace osgRayTrace::engine
 {
 
+/// GGX width from which on a lobe is rough: photons are looked up there. Light that a narrower lobe
+/// casts on other surfaces makes caustics.
+constexpr float kRoughAlpha = 0.25f;
+
 /// Tells the direction of transport. Radiance: wo is towards the camera. Importance: wo is where a
 /// photon came from; refraction then lacks the change of solid angle [Veach97, ch. 5].
 enum class Transport
@@ -88,6 +92,17 @@ struct Bsdf
     bool needsAxes() const { return isAnisotropic() || coatTilted; }
     bool isDiffuse() const { return !reflects() && !transmits() && !layered; }
     bool isSmooth() const { return alpha < kSmoothAlpha; }
+    /// Returns whether all lobes are narrower than kRoughAlpha, and some wider than a mirror's. The
+    /// answer is the same on both sides of a surface.
+    bool isGlossy() const
+    {
+        const bool spreads = diffuse != Vec3(0.0f) || diffuseTransmission != Vec3(0.0f) ||
+                             sheen != Vec3(0.0f) || !(reflects() || transmits());
+        const float interface = alpha > alphaTangent ? alpha : alphaTangent;
+        const float coatAlpha = clearcoat > 0.0f ? clearcoatAlpha : 0.0f;
+        const float widest = interface > coatAlpha ? interface : coatAlpha;
+        return !spreads && widest < kRoughAlpha && widest >= kSmoothAlpha;
+    }
     /// Returns whether light samples and photons find nothing here: mirrors and clear glass.
     bool isMirror() const { return isSmooth() && diffuse == Vec3(0.0f) && !layered; }
 };

@@ -14,7 +14,7 @@ constexpr uint32_t kPixel = 137;
 
 struct Lobe
 {
-    uint32_t gathering, rough, mirrored;
+    uint32_t gathering, rough, mirrored, carried = kNo;
 };
 
 constexpr Lobe kDiffuse{kYes, kYes, kNo};
@@ -27,7 +27,8 @@ PathFlags pathAfter(std::initializer_list<Lobe> lobes)
 {
     uint32_t word = PathFlags::ofPixel(kPixel).word();
     for (const Lobe& lobe : lobes)
-        word = PathFlags::afterSurface(word, lobe.gathering, lobe.rough, lobe.mirrored);
+        word =
+            PathFlags::afterSurface(word, lobe.gathering, lobe.rough, lobe.carried, lobe.mirrored);
     return PathFlags(word);
 }
 
@@ -65,6 +66,17 @@ TEST_CASE("a path is on a caustic chain once it meets mirrors behind a surface t
     CHECK_FALSE(pathAfter({kDiffuse, kMirror, kDiffuseWithoutPhotons}).isOnCausticChain());
     CHECK(pathAfter({kDiffuse, kDiffuseWithoutPhotons, kMirror}).isOnCausticChain());
     CHECK_FALSE(pathAfter({kGlossy, kDiffuseWithoutPhotons, kMirror}).isOnCausticChain());
+}
+
+TEST_CASE("photons carry what a glossy surface casts, also by way of mirrors", "[path]")
+{
+    constexpr Lobe kCaster{kNo, kNo, kNo, kYes}, kCoat{kNo, kNo, kYes, kYes};
+    CHECK(pathAfter({kDiffuse, kCaster}).isOnCausticChain());
+    CHECK(pathAfter({kDiffuse, kCoat}).isOnCausticChain());
+    CHECK(pathAfter({kDiffuse, kCaster, kMirror}).isOnCausticChain());
+    CHECK(pathAfter({kDiffuse, kDiffuseWithoutPhotons, kCaster}).isOnCausticChain());
+    CHECK_FALSE(pathAfter({kDiffuse, kCaster, kDiffuseWithoutPhotons}).isOnCausticChain());
+    CHECK(pathAfter({kDiffuse, kCaster}).isScattered());
 }
 
 TEST_CASE("photons are taken at rough surfaces only, and once for all", "[path]")

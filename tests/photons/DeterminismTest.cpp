@@ -18,13 +18,14 @@ constexpr IntegratorKind kKinds[] = {IntegratorKind::Ppm, IntegratorKind::Sppm,
                                      IntegratorKind::PhotonCaustics};
 
 /// Returns a scene of glass, metal and diffuse surfaces with lights with and without area.
-SceneBuilder stage()
+/// roughness: of the metal.
+SceneBuilder stage(float roughness = 0.6f)
 {
     SceneBuilder builder;
     builder.add(quadMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), lambert(Vec3(0.7f)));
     builder.add(sphereMesh({-0.5f, 0, 0.6f}, 0.5f, 16), glass(1.5f));
     Material metal = mirror(Vec3(0.8f, 0.7f, 0.5f));
-    metal.roughness = 0.6f;
+    metal.roughness = roughness;
     builder.add(boxMesh({0.3f, -0.4f, 0}, {0.9f, 0.2f, 0.8f}), metal);
     builder.addQuadLight({-0.4f, -0.4f, 2.5f}, {0, 0.8f, 0}, {0.8f, 0, 0}, Vec3(3.0f));
     builder.addEmissive(sphereMesh({1.2f, 0.8f, 1.5f}, 0.2f, 6), lamp(Vec3(1, 2, 3)));
@@ -87,6 +88,28 @@ TEST_CASE("photon pictures: equal for 1, 2 and 5 threads, bit by bit, and beside
             CHECK(session.resolveRadiance() == first.rgba);
             CHECK(photons->tracedRays() == other.progress().rays.photon);
         }
+}
+
+TEST_CASE("photon pictures: glossy casters, equal for 1, 2 and 16 threads, bit by bit", "[photons]")
+{
+    for (const IntegratorKind kind : kKinds)
+    {
+        RenderOptions options = optionsOf(kind);
+        options.photons = 7000;
+        CAPTURE(int(kind));
+        const Picture first = render(stage(0.3f).build(1), stageView(), options, 6, 1);
+        for (const int threads : {2, 16})
+        {
+            const Picture again =
+                render(stage(0.3f).build(threads), stageView(), options, 6, threads);
+            const bool same = again.rgba == first.rgba;
+            CHECK(same);
+        }
+        // Photons of the glossy box are part of the picture.
+        const bool matters =
+            render(stage(0.6f).build(1), stageView(), options, 6, 1).rgba != first.rgba;
+        CHECK(matters);
+    }
 }
 
 TEST_CASE("photon map: ten million photons in one cell", "[photons][stability 42]")

@@ -57,6 +57,12 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(glass(1.5f)).transmission);
     CHECK(traitsOf(glass(1.5f)).specular);
     CHECK_FALSE(traitsOf(glass(1.5f, 0.5f)).specular);
+    Material metal = mirror(Vec3(1.0f));
+    metal.roughness = 0.49f;
+    CHECK(traitsOf(metal).glossy);
+    CHECK_FALSE(traitsOf(metal).specular);
+    metal.roughness = 0.51f;
+    CHECK_FALSE(traitsOf(metal).glossy);
     CHECK_FALSE(traitsOf(glass(1.0f)).physical); // invisible
 
     Material black = lambert(Vec3(0.0f));
@@ -143,6 +149,15 @@ TEST_CASE("integrator: automatic takes the cheapest that is right for the scene"
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
     physical.specular = false;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    physical.glossy = true; // a lamp or a sun makes caustics, a sky smooth light
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
+    physical.areaLights = false;
+    physical.environment = true;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::Path);
+    physical.deltaLights = true;
+    CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
+    physical.glossy = physical.environment = physical.deltaLights = false;
+    physical.areaLights = true;
     physical.transmission = true;
     CHECK(chooseIntegrator(IntegratorKind::Automatic, physical) == IntegratorKind::PhotonCaustics);
     CHECK(chooseIntegrator(IntegratorKind::Path, physical) == IntegratorKind::Path);

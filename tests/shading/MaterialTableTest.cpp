@@ -46,6 +46,54 @@ TEST_CASE("material: a Lambert surface is diffuse and nothing else", "[shading]"
     CHECK(table[0].front.isDiffuse());
 }
 
+TEST_CASE("material: glossy is what scatters by narrow lobes alone, seen from both sides",
+          "[shading]")
+{
+    const auto isGlossy = [](const Material& material)
+    {
+        const Scene scene = sceneOf(material);
+        const MaterialTable table(scene);
+        CHECK(table[0].front.isGlossy() == table[0].back.isGlossy());
+        return table[0].front.isGlossy();
+    };
+    Material metal = mirror(Vec3(0.9f));
+    CHECK_FALSE(isGlossy(metal));
+    metal.roughness = 0.04f; // alpha 0.0016
+    CHECK(isGlossy(metal));
+    metal.roughness = 0.49f;
+    CHECK(isGlossy(metal));
+    metal.roughness = 0.51f;
+    CHECK_FALSE(isGlossy(metal));
+    CHECK_FALSE(isGlossy(glass(1.5f)));
+    CHECK(isGlossy(glass(1.5f, 0.3f)));
+    CHECK_FALSE(isGlossy(lambert(Vec3(0.5f))));
+    Material plastic = lambert(Vec3(0.5f));
+    plastic.ior = 1.5f;
+    plastic.roughness = 0.3f;
+    CHECK_FALSE(isGlossy(plastic));
+    Material frosted = glass(1.5f, 0.3f);
+    frosted.transmission = 0.5f;
+    CHECK_FALSE(isGlossy(frosted));
+
+    MaterialDetail coat;
+    coat.clearcoat = 1.0f;
+    for (const float base : {0.0f, 0.3f, 0.6f})
+        for (const float coated : {0.0f, 0.3f, 0.6f})
+        {
+            metal.roughness = base;
+            coat.clearcoatRoughness = coated;
+            metal.detail = std::make_shared<MaterialDetail>(coat);
+            CAPTURE(base, coated);
+            CHECK(isGlossy(metal) == (base < 0.5f && coated < 0.5f && base + coated > 0.0f));
+        }
+    MaterialDetail sheen;
+    sheen.sheenColor = Vec3(0.5f);
+    sheen.sheenRoughness = 0.3f;
+    metal.roughness = 0.3f;
+    metal.detail = std::make_shared<MaterialDetail>(sheen);
+    CHECK_FALSE(isGlossy(metal));
+}
+
 TEST_CASE("material: metallic, roughness and base colour as in glTF", "[shading]")
 {
     Material material = lambert(Vec3(0.8f, 0.4f, 0.2f));

@@ -4,6 +4,7 @@
 
 #include "apps/osgraytracebench/report/BoxScenes.h"
 #include "apps/osgraytracebench/report/PolygonLight.h"
+#include "data/generator/Scenes.h"
 #include "data/generator/Transport.h"
 
 #include <osg/MatrixTransform>
@@ -117,10 +118,14 @@ std::vector<ReportScene> transportScenes()
                                  std::to_string(lamps) + " street lamps", data::city(lamps),
                                  false));
     scenes.push_back(sceneOf("pool", "The floor of a pool", data::pool(0.03), true));
+    for (const double roughness : {0.0, 0.1, 0.25, 0.4})
+        scenes.push_back(sceneOf("rings-" + numberText("%g", roughness),
+                                 "Rings of roughness " + numberText("%g", roughness),
+                                 data::rings(roughness), true));
     for (const double roughness : {0.1, 0.3})
         scenes.push_back(sceneOf("necklace-" + numberText("%g", roughness),
                                  "A chain of roughness " + numberText("%g", roughness),
-                                 data::necklace(roughness), false));
+                                 data::necklace(roughness), true));
     scenes.push_back(
         sceneOf("veach-plates", "Plates that mirror lamps", data::veachPlates(1.0), false));
     scenes.push_back(

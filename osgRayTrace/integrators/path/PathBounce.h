@@ -95,6 +95,7 @@ struct Bounce
     LaneMask gathering = 0;    ///< lanes that look up photons
     LaneMask rough = 0;        ///< gathering lanes that look up all photons
     LaneMask behindPanes = 0;  ///< lanes whose rays have passed panes on their way
+    LaneMask carried = 0;      ///< glossy lanes whose light from lights photons carry on
     LaneMask terminating = 0;  ///< gathering lanes that go on by mirror-like lobes only
     Bsdf* bsdfs = nullptr;     ///< BSDFs of general lanes
 };
@@ -145,8 +146,9 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce);
 /// Connects the pixels of a group to the second surfaces of its reused paths.
 void connectPaths(Tile& tile);
 
-/// Sets bounce.gathering, bounce.rough and bounce.terminating: the lanes that look up photons, and
-/// those that go on by mirror-like lobes only.
+/// Sets bounce.gathering, bounce.rough, bounce.terminating and bounce.carried: the lanes that look
+/// up photons, those that go on by mirror-like lobes only, and those on which photons have the
+/// light that comes straight from lights.
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use);
 
 /// Adds the radiance that the photons around the lanes' points send back along the lanes' rays.

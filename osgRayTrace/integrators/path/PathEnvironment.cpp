@@ -59,7 +59,7 @@ void sampleOneStratum(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMa
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds)
 {
     if (!tile.context.traced->lights().shiningEnvironment()) return;
-    const LaneMask lanes = bounce.diffuse | bounce.general;
+    const LaneMask lanes = (bounce.diffuse | bounce.general) & ~bounce.carried;
     LightLanes samples;
     if (tile.context.strata && bounce.number == 0)
     {

@@ -48,10 +48,11 @@ public:
     /// PhotonUse::Caustics.
     bool hasTaken() const { return (_word & kTaken) != 0; }
 
-    /// Returns whether photons already carry the light that the path meets now. The last surface
-    /// that scattered the path is then one that photons know: the rough surface of the look-up, any
-    /// surface after it, or a glossy surface where direct photons were looked up. The path has
-    /// met mirror-like surfaces since. The fact matters with PhotonUse::Caustics.
+    /// Returns whether photons already carry the light that the path meets now. Either a glossy
+    /// surface after the look-up has scattered the path, or the path has met mirror-like surfaces
+    /// since the last surface that scattered it. That surface is then one that photons know: the
+    /// rough surface of the look-up, any surface after it, or a glossy surface where direct photons
+    /// were looked up. The fact matters with PhotonUse::Caustics.
     bool isOnCausticChain() const { return (_word & kCausticChain) != 0; }
 
     /// Returns whether the path is one of the two into which a camera path has split.
@@ -65,14 +66,16 @@ public:
 
     /// Returns the word after a surface, for loops over lanes. Each of the other arguments is all
     /// bits or none: gathering if photons were looked up, rough if photons were looked up on a
-    /// rough surface, mirrored if the path goes on by a mirror-like lobe.
+    /// rough surface, carried if photons carry what the surface scatters of the light that the path
+    /// may meet next, mirrored if the path goes on by a mirror-like lobe.
     OSGRAYTRACE_INLINE static uint32_t afterSurface(uint32_t word, uint32_t gathering,
-                                                    uint32_t rough, uint32_t mirrored)
+                                                    uint32_t rough, uint32_t carried,
+                                                    uint32_t mirrored)
     {
         const uint32_t taken = (word | rough) & kTaken;
         const uint32_t gathered = (gathering & kGathered) | (taken / kTaken * kGathered);
-        const uint32_t scattered =
-            (word & ~(kCausticChain | kGathered)) | kScattered | taken | gathered;
+        const uint32_t scattered = (word & ~(kCausticChain | kGathered)) | kScattered | taken |
+                                   gathered | (carried & kCausticChain);
         const uint32_t chained = word | ((0u - ((word / kGathered) & 1u)) & kCausticChain);
         return (chained & mirrored) | (scattered & ~mirrored);
     }

@@ -200,7 +200,7 @@ void sampleTree(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lan
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
 {
     const LightTable& table = tile.context.traced->lights();
-    const LaneMask lanes = bounce.diffuse | bounce.general;
+    const LaneMask lanes = (bounce.diffuse | bounce.general) & ~bounce.carried;
     const UintLanes& seeds = block.seed;
     for (std::size_t k = 0; k < tile.deltaLights.size(); ++k)
     {

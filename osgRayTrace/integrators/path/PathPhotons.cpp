@@ -12,8 +12,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kGatherAlpha = 0.25f; ///< GGX width from which on a surface is rough
-
 constexpr float kSmallerDisc = 0.5f; ///< radius of the disc that a disc is compared with, over its
                                      ///< own
 
@@ -138,7 +136,7 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     {
         const Bsdf& bsdf = bounce.bsdfs[i];
         const bool spreads = bsdf.diffuse + bsdf.diffuseTransmission != Vec3(0.0f);
-        const bool rough = spreads || bsdf.alpha >= kGatherAlpha;
+        const bool rough = spreads || bsdf.alpha >= kRoughAlpha;
         if (rough) bounce.rough |= 1u << i;
         // Narrow lobes hold few photons. Paths go on in narrow lobes, and look up only caustics,
         // which paths cannot find.
@@ -146,8 +144,15 @@ void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
     }
     bounce.terminating = use == PhotonUse::Indirect ? bounce.rough : 0u;
     if (use == PhotonUse::Indirect) return;
-    for (const int i : lanesIn(bounce.gathering))
-        if (block.flagsOf(i).hasTaken()) bounce.gathering &= ~(1u << i);
+    // Paths and photons agree which points are glossy: a path that has taken photons was scattered,
+    // and reads textures without a cone, as photons do.
+    for (const int i : lanesIn(bounce.diffuse | bounce.general))
+    {
+        if (!block.flagsOf(i).hasTaken()) continue;
+        bounce.gathering &= ~(1u << i);
+        const bool glossy = (bounce.general >> i & 1u) && bounce.bsdfs[i].isGlossy();
+        bounce.carried |= static_cast<LaneMask>(glossy) << i;
+    }
     bounce.rough &= bounce.gathering;
 }
 

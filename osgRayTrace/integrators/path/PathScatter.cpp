@@ -141,7 +141,7 @@ void addSplitPaths(Tile& tile, const PathBlock& block, const UintLanes& flags,
         to.pdfW[k] = kInfinity;
         to.etaScale[k] = split.etaScale[i];
         to.seed[k] = hash(block.seed[i] + kReflected);
-        to.flags[k] = PathFlags::afterSurface(flags[i], 0u, 0u, ~0u);
+        to.flags[k] = PathFlags::afterSurface(flags[i], 0u, 0u, 0u, ~0u);
     }
 }
 
@@ -274,7 +274,7 @@ LaneMask playRoulette(const FloatLanes& roulette, const FloatLanes& survival, Ve
 /// Sets the rays of all lanes, whether they go on or not.
 OSGRAYTRACE_KERNEL
 void spawnRays(PathBlock& block, const NextRays& next, const Vec3Lanes& throughput,
-               LaneMask gathering, LaneMask rough)
+               LaneMask gathering, LaneMask rough, LaneMask carried)
 {
     const Vec3Lanes &origin = next.origin, &wi = next.wi;
     const FloatLanes &tNear = next.tNear, &pdfW = next.pdfW;
@@ -293,8 +293,9 @@ void spawnRays(PathBlock& block, const NextRays& next, const Vec3Lanes& throughp
         block.throughput.y[i] = throughput.y[i];
         block.throughput.z[i] = throughput.z[i];
         block.pdfW[i] = pdfW[i];
-        block.flags[i] = PathFlags::afterSurface(block.flags[i], laneBit(gathering, i),
-                                                 laneBit(rough, i), maskOf(!(pdfW[i] < kInfinity)));
+        block.flags[i] =
+            PathFlags::afterSurface(block.flags[i], laneBit(gathering, i), laneBit(rough, i),
+                                    laneBit(carried, i), maskOf(!(pdfW[i] < kInfinity)));
     }
 }
 
@@ -329,7 +330,7 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         block.active &= playRoulette(roulette, survival, throughput);
     }
     const UintLanes flags = block.flags;
-    spawnRays(block, next, throughput, bounce.gathering, bounce.rough);
+    spawnRays(block, next, throughput, bounce.gathering, bounce.rough, bounce.carried);
     if (tile.context.traced->traits().mipmaps)
     {
         LaneMask mirrored = split.lanes;

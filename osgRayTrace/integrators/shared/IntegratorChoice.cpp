@@ -10,7 +10,8 @@ IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits
     if (wanted != IntegratorKind::Automatic) return wanted;
     if (!traits.physical) return IntegratorKind::Whitted;
     const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
-    const bool caustics = lights && (traits.specular || traits.transmission);
+    const bool caustics = (lights && (traits.specular || traits.transmission)) ||
+                          ((traits.areaLights || traits.deltaLights) && traits.glossy);
     return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 

@@ -15,7 +15,7 @@ PhotonUse photonUse(IntegratorKind kind);
 /// Returns wanted, or in place of Automatic the cheapest integrator that is right for the scene.
 /// Scenes of fixed-function materials get Whitted. Scenes with a physical material get path
 /// tracing, with photons for the caustics if there are lights and something is mirror-like or
-/// transmits.
+/// transmits, or if there are lights other than a sky and some metal is glossy.
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
 
 } // namespace osgRayTrace::engine

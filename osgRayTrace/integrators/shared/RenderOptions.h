@@ -16,7 +16,7 @@ enum class IntegratorKind : uint8_t
     Path,
     Ppm,            ///< photons for all indirect light, fixed hit points
     Sppm,           ///< photons for all indirect light, new hit points in each pass
-    PhotonCaustics, ///< path tracing, photons for light that came by mirrors and glass
+    PhotonCaustics, ///< path tracing, photons for light that came by metal and glass
     Debug,
 };
 
