@@ -28,7 +28,8 @@ std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scen
 
 Placement homePlacement(const Options& options, osg::Node& scene)
 {
-    return homePlacement(scene, options.width, options.height,
+    const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
+    return homePlacement(scene, whole.fullWidth, whole.fullHeight,
                          options.fovyDegrees.value_or(kOsgViewerFovyDegrees));
 }
 
@@ -44,7 +45,19 @@ Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
     if (options.fovyDegrees) placement.height = 0.0;
     const std::string problem = whyNoView(placement, "--");
     if (!problem.empty()) throw Failure(kUsage, problem);
-    return cameraAt(placement, scene, double(options.width) / options.height);
+    return cameraAt(placement, scene, options.aspect());
+}
+
+osg::Matrixd croppedProjection(const Options& options, const osg::Matrixd& projection)
+{
+    if (!options.crop) return projection;
+    const Crop& crop = *options.crop;
+    const double sx = double(crop.fullWidth) / options.width;
+    const double sy = double(crop.fullHeight) / options.height;
+    const double middleX = (crop.left + options.width / 2.0) / crop.fullWidth;
+    const double middleY = 1.0 - (crop.top + options.height / 2.0) / crop.fullHeight;
+    return projection * osg::Matrixd::translate(1.0 - 2.0 * middleX, 1.0 - 2.0 * middleY, 0.0) *
+           osg::Matrixd::scale(sx, sy, 1.0);
 }
 
 } // namespace osgRayTrace::app

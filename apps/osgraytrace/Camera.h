@@ -17,4 +17,7 @@ Placement homePlacement(const Options& options, osg::Node& scene);
 /// Failure(kUsage) if the options define no view, or the scene has no camera of the name.
 Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home);
 
+/// Returns the projection of the part of the picture that the options ask for.
+osg::Matrixd croppedProjection(const Options& options, const osg::Matrixd& projection);
+
 } // namespace osgRayTrace::app

@@ -31,6 +31,7 @@ const char* const kFooter =
 struct RawOptions
 {
     std::vector<int> size;
+    std::vector<int> crop;
     std::vector<double> eye, center, up;
     double fovyDegrees = 0.0;
     std::string context;
@@ -164,6 +165,11 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->allow_extra_args(false);
     app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
 
+    app.add_option("--crop", raw.crop,
+                   "Renders a part of the picture alone: pixels from its left and its top, width, "
+                   "height")
+        ->option_text("X Y W H")
+        ->expected(4);
     app.add_option("--camera", options.camera, "Camera of the model, by its name")
         ->option_text("NAME");
     app.add_option("--eye", raw.eye, "Position of the camera")
@@ -254,6 +260,18 @@ osg::Vec3d vectorOf(const std::vector<double>& values)
     return osg::Vec3d(values[0], values[1], values[2]);
 }
 
+/// Makes the size that of a part of the picture. Throws Failure(kUsage) if it is not within.
+void applyCrop(const std::vector<int>& crop, Options& options)
+{
+    const auto within = [](int begin, int size, int full)
+    { return begin >= 0 && size >= 1 && begin < full && size <= full - begin; };
+    if (!within(crop[0], crop[2], options.width) || !within(crop[1], crop[3], options.height))
+        throw Failure(kUsage, "--crop: X Y W H is not within the picture of --size");
+    options.crop = Crop{crop[0], crop[1], options.width, options.height};
+    options.width = crop[2];
+    options.height = crop[3];
+}
+
 void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
 {
     if (!raw.size.empty())
@@ -261,6 +279,7 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         options.width = raw.size[0];
         options.height = raw.size[1];
     }
+    if (!raw.crop.empty()) applyCrop(raw.crop, options);
     if (!raw.eye.empty()) options.eye = vectorOf(raw.eye);
     if (!raw.center.empty()) options.center = vectorOf(raw.center);
     if (!raw.up.empty()) options.up = vectorOf(raw.up);

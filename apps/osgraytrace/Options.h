@@ -24,12 +24,21 @@ enum class Context
     Egl,
 };
 
+/// A part of the picture [pixels], from its left and its top.
+struct Crop
+{
+    int left = 0, top = 0;
+    int fullWidth = 0, fullHeight = 0; ///< of the picture
+};
+
 struct Options
 {
     std::vector<std::string> models;
     std::vector<std::string> outputs;
     int width = 1280; ///< [pixels]
     int height = 720; ///< [pixels]
+
+    std::optional<Crop> crop; ///< width and height are then those of the part
 
     // The following members describe the view; members that are not given are taken from the scene:
     // see Camera.h.
@@ -67,6 +76,12 @@ struct Options
     /// Holds the settings that the command line states: names and values.
     std::vector<std::pair<std::string, std::string>> assignments;
     std::optional<int> defaultPasses; ///< limit of passes unless somebody states one
+
+    /// Returns the width by the height of the picture, of which a crop is a part.
+    double aspect() const
+    {
+        return crop ? double(crop->fullWidth) / crop->fullHeight : double(width) / height;
+    }
 
     /// Returns whether scenes without a light of number 0 get one at the eye.
     bool hasHeadlight() const { return headlight.value_or(!lights.any()); }

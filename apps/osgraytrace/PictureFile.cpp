@@ -46,6 +46,7 @@ engine::ExrImage exrImageOf(const Picture& picture)
     engine::ExrImage exr;
     exr.width = picture.radiance->s();
     exr.height = picture.radiance->t();
+    exr.texts = picture.texts;
     appendChannels(exr, *picture.radiance, {"R", "G", "B", "A"});
     for (const auto& [name, image] : picture.channels)
         appendChannels(exr, *image, exrNames(name, image->getPixelFormat() == GL_RGB));

@@ -1,6 +1,7 @@
 // RunPicture.cpp - renders a picture and writes it. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "PictureFile.h"
+#include "PictureTexts.h"
 #include "Reference.h"
 #include "Run.h"
 #include "SceneClock.h"
@@ -91,11 +92,14 @@ void takeSettingsOf(osg::Node& scene, Options& options)
 
 Picture render(const Options& options, osg::Node& scene, const Placement& home)
 {
-    const Camera camera = cameraOf(options, scene, home);
+    const Camera whole = cameraOf(options, scene, home);
+    Camera camera = whole;
+    camera.projection = croppedProjection(options, whole.projection);
     Progress progress(options);
     Picture picture = options.context == Context::None
                           ? renderWithoutContext(options, scene, camera, progress)
                           : renderInContext(options, scene, camera, progress);
+    picture.texts = pictureTexts(options, whole, picture.statistics);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     const bool drawnByOsg =
         options.context != Context::None && partsDrawnByOsg(picture.statistics) > 0;

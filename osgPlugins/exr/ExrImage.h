@@ -3,6 +3,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ExrImage
     int width = 0;
     int height = 0;
     std::vector<ExrChannel> channels;
+    std::map<std::string, std::string> texts; ///< attributes to write; readExr passes over them
 
     /// Returns the channel of this name; null if there is none.
     const ExrChannel* find(const std::string& name) const;

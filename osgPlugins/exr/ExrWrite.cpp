@@ -10,6 +10,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -69,6 +70,8 @@ void writeImage(std::ostream& stream, const ExrImage& image, ExrCompression comp
 {
     Imf::Header header(image.width, image.height);
     header.compression() = toImf(compression);
+    for (const auto& [name, text] : image.texts)
+        header.insert(name, Imf::StringAttribute(text));
 
     const std::size_t width = image.width;
     std::vector<std::vector<float>> floatRows(image.channels.size());

@@ -4,7 +4,7 @@
 #include "tests/apps/ComparedPictures.h"
 #include "tests/apps/Program.h"
 
-#include "osgPlugins/exr/ExrImage.h"
+#include "osgPlugins/exr/ExrPlanes.h"
 
 #include <osgRayTrace/RayTraceSettings>
 
@@ -355,4 +355,50 @@ TEST_CASE("osgraytrace: --help names every option of the command line", "[apps]"
     {
         CHECK_THAT(outcome.output, Contains(option));
     }
+}
+
+TEST_CASE("app: an EXR file says how its picture was made", "[apps]")
+{
+    const TemporaryFolder folder;
+    REQUIRE(osgraytrace(folder, kBox + kQuick + "--seed 5 --integrator path --fovy 30 -o a.exr")
+                .exitCode == 0);
+    osgRayTrace::engine::ExrPlanes planes;
+    REQUIRE(osgRayTrace::engine::readExrPlanes(folder / "a.exr", planes).empty());
+    CHECK(planes.texts["osgRayTrace.integrator"] == "path");
+    CHECK(planes.texts["osgRayTrace.passes"] == "4");
+    CHECK(planes.texts["osgRayTrace.seed"] == "5");
+    CHECK(std::stod(planes.texts["osgRayTrace.error"]) > 0.0);
+
+    // The camera is written as options: they make the same picture, except for rounding.
+    const Outcome again = osgraytrace(
+        folder, kBox + kQuick + "--seed 5 --integrator path -o b.exr --reference a.exr " +
+                    planes.texts["osgRayTrace.camera"]);
+    INFO(planes.texts["osgRayTrace.camera"] << again.errors);
+    CHECK(measuresIn(again.output).rmse >= 0.0);
+    CHECK(measuresIn(again.output).rmse < 1e-3);
+}
+
+TEST_CASE("app: a crop has the pixels of its place in the picture", "[apps]")
+{
+    const TemporaryFolder folder;
+    const std::string common = kBox + " --passes 1 --aov distance,position -o ";
+    REQUIRE(osgraytrace(folder, common + "whole.exr --size 64 48").exitCode == 0);
+    REQUIRE(osgraytrace(folder, common + "part.exr --size 64 48 --crop 10 5 20 30").exitCode == 0);
+    ExrImage whole, part;
+    REQUIRE(readExr(folder / "whole.exr", whole).empty());
+    REQUIRE(readExr(folder / "part.exr", part).empty());
+    REQUIRE((part.width == 20 && part.height == 30));
+    for (const char* name : {"distance.Z", "position.X", "position.Z"})
+    {
+        INFO(name);
+        for (int y = 0; y < 30; ++y) // rows from the top; row 0 of an image is at the bottom
+            for (int x = 0; x < 20; ++x)
+            {
+                const float value = whole.find(name)->values[size_t(64 * (47 - 5 - y) + 10 + x)];
+                const float cropped = part.find(name)->values[size_t(20 * (29 - y) + x)];
+                REQUIRE((value == cropped || std::abs(value - cropped) < 0.02f)); // of 560
+            }
+    }
+    for (const char* wrong : {"60 0 5 5", "-1 0 5 5", "0 0 0 5", "0 44 5 5"})
+        CHECK(osgraytrace(folder, common + "no.exr --size 64 48 --crop " + wrong).exitCode == 1);
 }

@@ -1,0 +1,73 @@
+// PictureTexts.cpp - words for the picture and its camera. Layer: apps.
+// SPDX-License-Identifier: MIT
+#include "PictureTexts.h"
+
+#include <osgRayTrace/Version>
+
+#include <charconv>
+#include <cmath>
+
+namespace osgRayTrace::app
+{
+
+namespace
+{
+
+std::string textOf(double value)
+{
+    char buffer[64];
+    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+    return std::string(buffer, result.ptr);
+}
+
+std::string textOf(const osg::Vec3d& vector)
+{
+    return textOf(vector.x()) + ' ' + textOf(vector.y()) + ' ' + textOf(vector.z());
+}
+
+/// Returns the options of osgraytrace that place the camera; without --fovy for parallel views.
+std::string optionsOf(const Camera& camera)
+{
+    osg::Vec3d eye, center, up;
+    camera.view.getLookAt(eye, center, up);
+    std::string text =
+        "--eye " + textOf(eye) + " --center " + textOf(center) + " --up " + textOf(up);
+    double fovy = 0.0, aspect = 0.0, nearest = 0.0, farthest = 0.0;
+    if (camera.projection.getPerspective(fovy, aspect, nearest, farthest))
+        text += " --fovy " + textOf(fovy);
+    return text;
+}
+
+/// Returns the options that crop the picture; empty if it is whole.
+std::string cropOf(const Options& options)
+{
+    if (!options.crop) return "";
+    const Crop& crop = *options.crop;
+    std::string text = " --size";
+    for (const int value : {crop.fullWidth, crop.fullHeight})
+        text += ' ' + std::to_string(value);
+    text += " --crop";
+    for (const int value : {crop.left, crop.top, options.width, options.height})
+        text += ' ' + std::to_string(value);
+    return text;
+}
+
+} // namespace
+
+std::map<std::string, std::string> pictureTexts(const Options& options, const Camera& camera,
+                                                const Statistics& statistics)
+{
+    if (options.isPart()) return {};
+    std::map<std::string, std::string> texts{
+        {"osgRayTrace.version", osgRayTraceGetVersion()},
+        {"osgRayTrace.integrator", statistics.integrator},
+        {"osgRayTrace.passes", std::to_string(statistics.passes)},
+        {"osgRayTrace.seed", std::to_string(options.settings->getSeed())},
+        {"osgRayTrace.camera", optionsOf(camera) + cropOf(options)},
+    };
+    if (std::isfinite(statistics.relativeError))
+        texts["osgRayTrace.error"] = textOf(statistics.relativeError);
+    return texts;
+}
+
+} // namespace osgRayTrace::app
