@@ -29,7 +29,6 @@ if(NOT pybind11_FOUND OR NOT Python_FOUND)
         "pybind11-dev, python3-dev, python3-numpy; Python_EXECUTABLE names another Python)")
     return()
 endif()
-message(STATUS "Python module: for ${Python_EXECUTABLE}, version ${Python_VERSION}")
 set(OSGRAYTRACE_HAS_PYTHON TRUE)
 
 # A Python looks for modules below its own prefix only. If that is ours, its folder is taken, else the one that
@@ -42,3 +41,4 @@ print(inside[0] if inside else 'lib/python%d.%d/site-packages' % sys.version_inf
     OUTPUT_VARIABLE sitePackages OUTPUT_STRIP_TRAILING_WHITESPACE)
 set(OSGRAYTRACE_PYTHON_DIR "${sitePackages}" CACHE STRING
     "Where the Python module is installed, below the prefix or absolute")
+message(STATUS "Python module: for ${Python_EXECUTABLE}, version ${Python_VERSION}, into ${OSGRAYTRACE_PYTHON_DIR}")

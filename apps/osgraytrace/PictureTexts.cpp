@@ -57,6 +57,7 @@ std::string cropOf(const Options& options)
 std::map<std::string, std::string> pictureTexts(const Options& options, const Camera& camera,
                                                 const Statistics& statistics)
 {
+    if (options.isPart()) return {};
     std::map<std::string, std::string> texts{
         {"osgRayTrace.version", osgRayTraceGetVersion()},
         {"osgRayTrace.integrator", statistics.integrator},

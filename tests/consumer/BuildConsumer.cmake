@@ -80,6 +80,16 @@ if(NOT output MATCHES "RMSE 0\n")
     message(FATAL_ERROR "The same picture twice, but: ${output}")
 endif()
 
+# So does the installed Python module, wherever the install is moved to.
+if(PYTHON)
+    run(${CMAKE_COMMAND} -E env "PYTHONPATH=${WORK}/moved/${PYTHON_DIR}" "${PYTHON}" -B -c
+        "import osgraytrace as o\nr = o.Renderer('${share}/data/terrace.osgt', size=(8, 8), passes=1)
+print(r.render()['passes'], o.__file__)")
+    if(NOT output MATCHES "1 ${WORK}/moved" OR output MATCHES "cannot|Unsupported")
+        message(FATAL_ERROR "Python: ${output}")
+    endif()
+endif()
+
 # Beside the installed README there must be everything that the pages name: links, and files of
 # data.
 file(GLOB docs RELATIVE "${LIBRARY_SOURCE}" "${LIBRARY_SOURCE}/osgRayTrace/docs/*.md")
