@@ -17,8 +17,8 @@ namespace osgRayTrace::app
 namespace
 {
 
-/// Writes a checkpoint if it has passes. Returns the exit code: a failure is printed, as the picture
-/// is there still, and there may be room later.
+/// Writes a checkpoint if it has passes. Returns the exit code: a failure is printed, as the
+/// picture is there still, and there may be room later.
 int write(const std::string& path, const Checkpoint& checkpoint, bool hasPasses)
 {
     try

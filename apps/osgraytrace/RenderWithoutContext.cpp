@@ -73,7 +73,7 @@ Picture renderWithoutContext(const Options& options, osg::Node& scene, const Cam
     if (!rendered && !isInterrupted())
         throw Failure(kCannotRender, renderer->getStatistics().message);
 
-Picture picture = pictureOf(*renderer, options);
+    Picture picture = pictureOf(*renderer, options);
     picture.code = kept;
     return picture;
 }
