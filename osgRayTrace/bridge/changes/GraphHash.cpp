@@ -193,8 +193,17 @@ private:
     {
         _hasher.add(ownHint(node));
         if (_hasViewMasks) _hasher.add(node.getNodeMask());
-        _hasher.addObject(node.getStateSet());
-        if (node.getStateSet()) addStateSet(_hasher, *node.getStateSet(), _reads.get());
+        const osg::StateSet* stateSet = node.getStateSet();
+        _hasher.addObject(stateSet);
+        if (!stateSet) return;
+        if (stateSet != _lastStateSet)
+        {
+            Hasher values(_kept);
+            addStateSet(values, *stateSet, _reads.get());
+            _lastStateSet = stateSet;
+            _lastValues = values.value();
+        }
+        _hasher.add(_lastValues);
     }
 
     // Marks the end of the children, so that a node that moves one level up changes the hash.
@@ -211,6 +220,8 @@ private:
     ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
     osg::Geometry::ArrayList _arrays;
+    osg::ref_ptr<const osg::StateSet> _lastStateSet; ///< neighbours often share one
+    uint64_t _lastValues = 0;                        ///< hash of its values
 };
 
 } // namespace

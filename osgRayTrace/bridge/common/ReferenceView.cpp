@@ -7,24 +7,30 @@
 namespace osgRayTrace::engine
 {
 
-ReferenceCullStack::ReferenceCullStack(const std::optional<ReferenceView>& view)
+namespace
 {
-    if (!view) return;
-    _viewFromWorld = view->viewFromWorld;
-    _stack = std::make_unique<osg::CullStack>();
-    _stack->setLODScale(view->lodScale);
-    _stack->setCullingMode(osg::CullSettings::NO_CULLING);
-    _stack->pushViewport(new osg::Viewport(0.0, 0.0, view->width, view->height));
-    _stack->pushProjectionMatrix(new osg::RefMatrix(view->projection));
+
+std::unique_ptr<osg::CullStack> cullStackOf(const ReferenceView& view)
+{
+    auto stack = std::make_unique<osg::CullStack>();
+    stack->setLODScale(view.lodScale);
+    stack->setCullingMode(osg::CullSettings::NO_CULLING);
+    stack->pushViewport(new osg::Viewport(0.0, 0.0, view.width, view.height));
+    stack->pushProjectionMatrix(new osg::RefMatrix(view.projection));
+    return stack;
 }
+
+} // namespace
 
 osg::CullStack* ReferenceCullStack::at(const osg::Matrixd& worldFromLocal) const
 {
-    if (!_stack) return nullptr;
-    if (_placed) _stack->popModelViewMatrix();
-    _stack->pushModelViewMatrix(new osg::RefMatrix(worldFromLocal * _viewFromWorld),
+    if (!_view) return nullptr;
+    if (_stack)
+        _stack->popModelViewMatrix();
+    else
+        _stack = cullStackOf(*_view);
+    _stack->pushModelViewMatrix(new osg::RefMatrix(worldFromLocal * _view->viewFromWorld),
                                 osg::Transform::RELATIVE_RF);
-    _placed = true;
     return _stack.get();
 }
 

@@ -29,20 +29,21 @@ struct ReferenceView
 };
 
 /// Answers the questions of OSG's nodes to a cull traversal (sizes in pixels, the eye, up), at one
-/// place at a time. A stack that followed the traversal would cost each transform a frustum.
+/// place at a time. A stack that followed the traversal would cost each transform a frustum, and
+/// most traversals meet no node that asks.
 class ReferenceCullStack
 {
 public:
-    explicit ReferenceCullStack(const std::optional<ReferenceView>& view);
+    explicit ReferenceCullStack(const std::optional<ReferenceView>& view) : _view(view) {}
 
     /// Returns the cull stack at a place; null without a view. The pointer is valid until the next
     /// call.
     osg::CullStack* at(const osg::Matrixd& worldFromLocal) const;
 
 private:
-    osg::Matrixd _viewFromWorld;
-    std::unique_ptr<osg::CullStack> _stack; // osg::CullStack is no osg::Referenced
-    mutable bool _placed = false;
+    std::optional<ReferenceView> _view;
+    /// Null: nobody has asked. osg::CullStack is no osg::Referenced.
+    mutable std::unique_ptr<osg::CullStack> _stack;
 };
 
 /// Returns the world matrix below a transform at worldFromOuter. A transform with a frame of its

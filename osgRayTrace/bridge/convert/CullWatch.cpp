@@ -22,8 +22,8 @@ namespace
 {
 
 constexpr std::size_t kDrawablesALook = 1000;
-/// The setup of a traversal takes as long as so many drawables.
-constexpr std::size_t kDrawablesASubtree = 4;
+/// The setup of a traversal takes as long as so many drawables, by the samples of a profiler.
+constexpr std::size_t kDrawablesASubtree = 7;
 /// In one of so many rounds, places are compared where nothing was added, not only drawables.
 constexpr std::size_t kRoundsByDrawables = 16;
 
@@ -204,6 +204,7 @@ CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
     if (!input.pass || !input.view) return changes;
     changes.holds = !_unknown;
     if (_unknown) return changes;
+    CullRepetition repetition(input);
     _credit += kDrawablesALook;
     for (std::size_t count = 0; count < _watched.size(); ++count)
     {
@@ -211,7 +212,7 @@ CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
         const std::size_t cost = kDrawablesASubtree + watched.captured;
         changes.complete = cost <= _credit;
         if (!changes.complete) return changes;
-        changes.holds = lookAt(watched, input, caches, changes);
+        changes.holds = lookAt(watched, repetition, input, caches, changes);
         if (!changes.holds) return changes;
         _credit -= cost;
         _next = (_next + 1) % _watched.size();
@@ -224,8 +225,8 @@ CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
 }
 
 /// Returns false if the graph must be converted.
-bool CullWatch::lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
-                       CullChanges& changes)
+bool CullWatch::lookAt(Watched& watched, CullRepetition& repetition, const ConversionInput& input,
+                       const Caches& caches, CullChanges& changes)
 {
     CullOutcome& then = watched.outcome;
     if (then.kind == CullOutcome::Left || isInPlain(then)) return true;
@@ -234,11 +235,7 @@ bool CullWatch::lookAt(Watched& watched, const ConversionInput& input, const Cac
     const bool plain = then.kind == CullOutcome::Plain;
     CullRecord seen;
     CullRecord& record = plain ? seen : then.record;
-    ConversionReport unused;
-    GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
-                             caches.rules, unused);
-    const std::optional<bool> repeats = collector.repeatsCullAt(then.path, record, sameState);
-    unused.setPlace({});
+    const std::optional<bool> repeats = repetition.repeats(then.path, record, sameState);
     if (!repeats) return false;
     if (plain && _rounds % kRoundsByDrawables != 0 && record.signature() == watched.signature)
     {
@@ -247,7 +244,10 @@ bool CullWatch::lookAt(Watched& watched, const ConversionInput& input, const Cac
     }
     const uint64_t content = plain ? 0 : contentOf(then);
     if (*repeats && content == watched.content) return true;
-    std::optional<CullOutcome> now = collector.cullOutcomeOf(record, then.answers);
+    ConversionReport unused;
+    GraphCollector collector(input, caches.vertices, caches.triangles, caches.textures,
+                             caches.rules, unused);
+    std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path, record, then.answers);
     unused.setPlace({});
     if (!now || !compare(watched, *now, input.eye.length(), changes)) return false;
     watched.signature = record.signature();

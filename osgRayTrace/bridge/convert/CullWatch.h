@@ -8,6 +8,7 @@
 #include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/CullOutcome.h"
+#include "osgRayTrace/bridge/graph/CullRepetition.h"
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 #include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
@@ -80,8 +81,8 @@ private:
         uint64_t content = 0;            ///< hash of all values that the outcome depends on
     };
 
-    bool lookAt(Watched& watched, const ConversionInput& input, const Caches& caches,
-                CullChanges& changes);
+    bool lookAt(Watched& watched, CullRepetition& repetition, const ConversionInput& input,
+                const Caches& caches, CullChanges& changes);
     bool isInPlain(const CullOutcome& outcome) const;
     uint64_t contentOf(const CullOutcome& outcome) const;
     uint64_t hashOf(const osg::StateSet& stateSet) const;

@@ -4,9 +4,6 @@
 
 #include <osg/GraphicsContext>
 #include <osg/Transform>
-#include <osg/Viewport>
-#include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 
 #include <exception>
 #include <new>
@@ -75,47 +72,35 @@ void visitBelow(osg::Node& node, osgUtil::CullVisitor& visitor)
     visitor.popFromNodePath();
 }
 
-/// Sets a cull visitor up for a traversal that culls nothing, and lets go of everything at the end.
-class Setup
+/// Has a pass's cull visitor fill a stage without culling, and lets go of everything at the end.
+class Traversal
 {
 public:
-    Setup(CullPass& pass, const ReferenceView& view, unsigned int traversalMask)
-        : stage(new osgUtil::RenderStage),
-          graph(new osgUtil::StateGraph),
-          projection(new osg::RefMatrix(view.projection)),
-          _visitor(pass.visitor)
+    Traversal(CullPass& pass, osgUtil::RenderStage& stage, osgUtil::StateGraph& graph)
+        : _visitor(pass.visitor), _stage(stage), _graph(graph)
     {
         osg::ref_ptr<osg::Camera> camera;
-        osg::ref_ptr<osg::View> osgView;
+        osg::ref_ptr<osg::View> view;
         pass.camera.lock(camera);
-        pass.view.lock(osgView);
-        const osg::ref_ptr<osg::Viewport> viewport =
-            new osg::Viewport(0.0, 0.0, view.width, view.height);
-        stage->setViewport(viewport.get());
-        stage->setCamera(camera.get());
-        stage->setInitialViewMatrix(new osg::RefMatrix(view.viewFromWorld));
-
+        pass.view.lock(view);
+        _stage.setCamera(camera.get());
         _visitor->reset();
         _visitor->getNodePath().clear();
         _visitor->setFrameStamp(pass.frameStamp.get());
         if (pass.frameStamp) _visitor->setTraversalNumber(pass.frameStamp->getFrameNumber());
-        _visitor->setTraversalMask(traversalMask);
         _visitor->setInheritanceMask(0);
         _visitor->setCullingMode(osg::CullSettings::NO_CULLING);
         _visitor->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        _visitor->setLODScale(view.lodScale);
         // The state is not observed by the pass: draw threads may do so at the same time.
         osg::GraphicsContext* context = camera ? camera->getGraphicsContext() : nullptr;
-        osg::RenderInfo renderInfo(context ? context->getState() : nullptr, osgView.get());
+        osg::RenderInfo renderInfo(context ? context->getState() : nullptr, view.get());
         if (camera) renderInfo.pushCamera(camera.get());
         _visitor->setRenderInfo(renderInfo);
-        _visitor->setStateGraph(graph.get());
-        _visitor->setRenderStage(stage.get());
-        _visitor->pushViewport(viewport.get());
-        _visitor->pushProjectionMatrix(projection.get());
+        _visitor->setStateGraph(&_graph);
+        _visitor->setRenderStage(&_stage);
     }
 
-    ~Setup()
+    ~Traversal()
     {
         _visitor->reset();
         _visitor->getNodePath().clear();
@@ -123,17 +108,30 @@ public:
         _visitor->setRenderStage(nullptr);
         osg::RenderInfo none;
         _visitor->setRenderInfo(none);
+        _stage.reset();
+        _stage.setCamera(nullptr);
+        _graph.reset();
     }
-
-    const osg::ref_ptr<osgUtil::RenderStage> stage;
-    const osg::ref_ptr<osgUtil::StateGraph> graph;
-    const osg::ref_ptr<osg::RefMatrix> projection;
 
 private:
     const osg::ref_ptr<osgUtil::CullVisitor> _visitor; // the pass may get another one meanwhile
+    osgUtil::RenderStage& _stage;
+    osgUtil::StateGraph& _graph;
 };
 
 } // namespace
+
+CullCapture::CullCapture(CullPass& pass, const ReferenceView& view, unsigned int traversalMask)
+    : _pass(pass),
+      _view(view),
+      _traversalMask(traversalMask),
+      _projection(new osg::RefMatrix(view.projection)),
+      _viewFromWorld(new osg::RefMatrix(view.viewFromWorld)),
+      _viewport(new osg::Viewport(0.0, 0.0, view.width, view.height)),
+      _stage(new osgUtil::RenderStage),
+      _graph(new osgUtil::StateGraph)
+{
+}
 
 bool isCapturing()
 {
@@ -143,18 +141,24 @@ bool isCapturing()
 template <class Visit>
 bool CullCapture::run(const osg::NodePath& path, const osg::Matrixd& worldFromParent,
                       const Visit& visit, CullRecord& record,
-                      const CullRecord::SameState& sameState) const
+                      const CullRecord::SameState& sameState)
 {
     const Capturing capturing;
-    const Setup setup(_pass, _view, _traversalMask);
+    const Traversal traversal(_pass, *_stage, *_graph);
     osgUtil::CullVisitor& visitor = *_pass.visitor;
     try
     {
+        visitor.setTraversalMask(_traversalMask);
+        visitor.setLODScale(_view.lodScale);
+        _stage->setViewport(_viewport.get());
+        _stage->setInitialViewMatrix(_viewFromWorld.get());
+        visitor.pushViewport(_viewport.get());
+        visitor.pushProjectionMatrix(_projection.get());
         visitor.pushModelViewMatrix(new osg::RefMatrix(worldFromParent * _view.viewFromWorld),
                                     osg::Transform::ABSOLUTE_RF);
         visitor.getNodePath().assign(path.begin(), path.end() - 1);
         visit(*path.back(), visitor);
-        return record.take(*setup.stage, _view.viewFromWorld, *setup.projection, sameState);
+        return record.take(*_stage, _view.viewFromWorld, *_projection, sameState);
     }
     catch (const std::bad_alloc&)
     {
@@ -173,13 +177,13 @@ bool CullCapture::run(const osg::NodePath& path, const osg::Matrixd& worldFromPa
 }
 
 bool CullCapture::node(const osg::NodePath& path, const osg::Matrixd& worldFromParent,
-                       CullRecord& record, const CullRecord::SameState& sameState) const
+                       CullRecord& record, const CullRecord::SameState& sameState)
 {
     const auto visit = [](osg::Node& node, osgUtil::CullVisitor& visitor) { node.accept(visitor); };
     return run(path, worldFromParent, visit, record, sameState);
 }
 
-CullRecord CullCapture::below(const osg::NodePath& path, const osg::Matrixd& worldFromNode) const
+CullRecord CullCapture::below(const osg::NodePath& path, const osg::Matrixd& worldFromNode)
 {
     CullRecord record;
     run(path, worldFromNode, visitBelow, record, {});

@@ -8,6 +8,9 @@
 
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
+#include <osg/Viewport>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
 
 namespace osgRayTrace::engine
 {
@@ -18,29 +21,31 @@ namespace osgRayTrace::engine
 class CullCapture
 {
 public:
-    CullCapture(CullPass& pass, const ReferenceView& view, unsigned int traversalMask)
-        : _pass(pass), _view(view), _traversalMask(traversalMask)
-    {
-    }
+    /// The pass and the view must live as long as this object.
+    CullCapture(CullPass& pass, const ReferenceView& view, unsigned int traversalMask);
 
     /// Captures the last node of a path, which is below worldFromParent, into a record. Returns
     /// CullRecord::take().
     bool node(const osg::NodePath& path, const osg::Matrixd& worldFromParent, CullRecord& record,
-              const CullRecord::SameState& sameState = {}) const;
+              const CullRecord::SameState& sameState = {});
 
     /// Captures what plain traversals meet directly below the last node of the path, in the state
     /// that the node's class has in OSG and in the place worldFromNode: without what the node
     /// itself does in cull.
-    CullRecord below(const osg::NodePath& path, const osg::Matrixd& worldFromNode) const;
+    CullRecord below(const osg::NodePath& path, const osg::Matrixd& worldFromNode);
 
 private:
     template <class Visit>
     bool run(const osg::NodePath& path, const osg::Matrixd& worldFromParent, const Visit& visit,
-             CullRecord& record, const CullRecord::SameState& sameState) const;
+             CullRecord& record, const CullRecord::SameState& sameState);
 
     CullPass& _pass;
     const ReferenceView& _view;
-    unsigned int _traversalMask;
+    const unsigned int _traversalMask;
+    const osg::ref_ptr<osg::RefMatrix> _projection, _viewFromWorld;
+    const osg::ref_ptr<osg::Viewport> _viewport;
+    const osg::ref_ptr<osgUtil::RenderStage> _stage; ///< empty between captures, as is the graph
+    const osg::ref_ptr<osgUtil::StateGraph> _graph;
 };
 
 /// Returns whether the calling thread captures: a RayTracedScene on the way is then a plain group.

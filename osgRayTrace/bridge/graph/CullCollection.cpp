@@ -182,9 +182,9 @@ CullOutcome GraphCollector::cullOutcome(const CullRecord& record)
     // A transform may ask the cull visitor for its eye, as those of skies do.
     const osg::Transform* transform = outcome.path.back()->asTransform();
     const osg::Matrixd& outer = _worldFromLocal.back();
-    const CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
-    const CullRecord walked = capture.below(
-        outcome.path, transform ? worldFromLocal(*transform, outer, *this, _input.view) : outer);
+    CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
+    const CullRecord walked =
+        capture.below(outcome.path, transform ? worldBelow(*transform) : outer);
     if (walked.error().empty() && finds(walked.leaves(), culled))
     {
         outcome.kind = CullOutcome::Plain;
@@ -246,19 +246,12 @@ CullOutcome::Kind GraphCollector::takesChosen(const osg::Drawable& drawable,
     return CullOutcome::Captured;
 }
 
-std::optional<bool> GraphCollector::repeatsCullAt(const osg::NodePath& path, CullRecord& record,
-                                                  const CullRecord::SameState& sameState)
-{
-    if (!_input.pass || !_input.view || !_input.pass->isClone || !descendTo(path))
-        return std::nullopt;
-    pushOntoNodePath(path.back());
-    const CullCapture capture(*_input.pass, *_input.view, _input.traversalMask);
-    return capture.node(getNodePath(), _worldFromLocal.back(), record, sameState);
-}
-
-std::optional<CullOutcome> GraphCollector::cullOutcomeOf(const CullRecord& record,
+std::optional<CullOutcome> GraphCollector::cullOutcomeAt(const osg::NodePath& path,
+                                                         const CullRecord& record,
                                                          HookAnswers& answers)
 {
+    if (!descendTo(path)) return std::nullopt;
+    pushOntoNodePath(path.back());
     _materials.repeatAnswers(answers);
     CullOutcome outcome = cullOutcome(record);
     if (_materials.lacksAnswers()) return std::nullopt;

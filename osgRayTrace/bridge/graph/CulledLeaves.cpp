@@ -14,7 +14,7 @@ void GraphCollector::walkBelow(osg::Node& node)
 {
     const bool pushed = pushState(node);
     if (const osg::Transform* transform = node.asTransform())
-        traverseBelow(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view), node);
+        traverseBelow(worldBelow(*transform), node);
     else
         traverseChildren(node);
     if (pushed) _states.pop();

@@ -4,7 +4,6 @@
 
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/common/LibraryName.h"
-#include "osgRayTrace/bridge/common/MatrixFault.h"
 #include "osgRayTrace/bridge/common/NodeKind.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/StatesAbove.h"
@@ -23,30 +22,18 @@
 namespace osgRayTrace::engine
 {
 
-namespace
-{
-
-/// The unit axes of a transform span at least this volume; a transform with less is singular.
-constexpr double kSmallestVolume = 1e-12;
-
-} // namespace
-
 GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& vertices,
                                DrawableTriangles& triangles, const TextureConverter& textures,
                                RuleCaches& rules, ConversionReport& report)
-    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN),
-      _input(input),
+    : PlacedVisitor(input),
       _vertices(vertices),
       _triangles(triangles),
       _textures(textures),
       _report(report),
-      _worldFromLocal(1),
-      _cullStack(input.view),
       _states(statesAbove(input)),
       _rules(rules),
       _materials({input.materials, input.hook, input.inheritedState}, rules.textures)
 {
-    setTraversalMask(input.traversalMask);
     _report.setPlace([this] { return path(); });
 }
 
@@ -58,9 +45,7 @@ bool GraphCollector::descendTo(const osg::NodePath& path)
         pushOntoNodePath(*node);
         pushState(**node);
         const osg::Transform* transform = (*node)->asTransform();
-        if (transform &&
-            !pushMatrix(worldFromLocal(*transform, _worldFromLocal.back(), *this, _input.view)))
-            return false;
+        if (transform && !pushMatrix(worldBelow(*transform))) return false;
     }
     return true;
 }
@@ -94,7 +79,7 @@ void GraphCollector::apply(osg::Transform& node)
     const bool pushed = pushState(node);
     if (node.getReferenceFrame() != osg::Transform::RELATIVE_RF && !_input.view)
         _report.count("approximated.absolute-transform"); // OpenGL has eye space, this world space
-    traverseBelow(worldFromLocal(node, _worldFromLocal.back(), *this, _input.view), node);
+    traverseBelow(worldBelow(node), node);
     if (pushed) _states.pop();
 }
 
@@ -261,28 +246,6 @@ void GraphCollector::collectUse(const osg::Geometry& geometry, uint32_t state, b
     _graph.hasProxies |= proxy;
 }
 
-osg::Vec3 GraphCollector::getEyePoint() const
-{
-    return _input.eye * osg::Matrixd::inverse(_worldFromLocal.back());
-}
-
-float GraphCollector::getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const
-{
-    const float scale = useLodScale && _input.view ? _input.view->lodScale : 1.0f;
-    return (position - getEyePoint()).length() * scale;
-}
-
-float GraphCollector::getDistanceFromEyePoint(const osg::Vec3& position, bool) const
-{
-    return static_cast<float>(
-        (osg::Vec3d(position) * _worldFromLocal.back() - _input.eye).length());
-}
-
-float GraphCollector::getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const
-{
-    return getDistanceToEyePoint(position, useLodScale);
-}
-
 void GraphCollector::traverseChildren(osg::Node& node)
 {
     if (isTooDeep(node) || isTooMuch(node)) return;
@@ -335,14 +298,11 @@ bool GraphCollector::pushState(osg::Node& node)
 /// Returns false if nothing can be placed by this matrix; the transform is then counted and named.
 bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
 {
-    if (const char* fault = matrixFault(worldFromLocal, kSmallestVolume))
-    {
+    const char* fault = enterPlace(worldFromLocal);
+    if (fault)
         _report.warn(fault, "transform '" + path() + "'",
                      "matrix is singular, projective or not finite, skipped with all below it");
-        return false;
-    }
-    _worldFromLocal.push_back(worldFromLocal);
-    return true;
+    return !fault;
 }
 
 void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node)

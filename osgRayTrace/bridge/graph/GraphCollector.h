@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 #include "osgRayTrace/bridge/graph/PathBudget.h"
+#include "osgRayTrace/bridge/graph/PlacedVisitor.h"
 #include "osgRayTrace/bridge/graph/RuleCaches.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
@@ -33,7 +34,7 @@ constexpr std::size_t kDeepestPath = 5000;
 /// Visits active children only (masks, switches, levels of detail for the eye point), multiplies
 /// transforms in double and accumulates state. The collector counts what is not a part of the
 /// traced scene.
-class GraphCollector : public osg::NodeVisitor
+class GraphCollector : public PlacedVisitor
 {
 public:
     /// textures holds the images that were converted before, rules what rules have derived.
@@ -46,14 +47,11 @@ public:
     /// false if the node cannot be placed.
     bool collectAt(const osg::NodePath& path);
 
-    /// Repeats the cull traversal of the last node of a path. Returns CullRecord::take(); nothing:
-    /// the node cannot be placed, or the traversal cannot be repeated.
-    std::optional<bool> repeatsCullAt(const osg::NodePath& path, CullRecord& record,
-                                      const CullRecord::SameState& sameState = {});
-
-    /// Returns what becomes of the node of repeatsCullAt(), as a conversion would decide on its
-    /// record with these answers of the hook, which is not asked. Nothing: an answer is not there.
-    std::optional<CullOutcome> cullOutcomeOf(const CullRecord& record, HookAnswers& answers);
+    /// Returns what becomes of the last node of a path, as a conversion would decide on what a cull
+    /// traversal shows of it, with these answers of the hook, which is not asked. Nothing: the node
+    /// cannot be placed, or an answer is not there.
+    std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path, const CullRecord& record,
+                                             HookAnswers& answers);
 
     /// Returns what was found. The caller may call this only once, after the traversal.
     CollectedGraph take();
@@ -76,18 +74,6 @@ public:
     void apply(osg::OccluderNode& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geometry& geometry) override;
-
-    // Levels of detail and nodes that turn to the view ask for the following values, which are in
-    // the local coordinates of the asking node.
-    osg::CullStack* asCullStack() override { return _cullStack.at(_worldFromLocal.back()); }
-    const osg::CullStack* asCullStack() const override
-    {
-        return _cullStack.at(_worldFromLocal.back());
-    }
-    osg::Vec3 getEyePoint() const override;
-    float getDistanceToEyePoint(const osg::Vec3& position, bool useLodScale) const override;
-    float getDistanceFromEyePoint(const osg::Vec3& position, bool useLodScale) const override;
-    float getDistanceToViewPoint(const osg::Vec3& position, bool useLodScale) const override;
 
 private:
     void traverseChildren(osg::Node& node);
@@ -135,13 +121,10 @@ private:
     uint32_t pickPath();
     std::string path() const { return pathText(getNodePath()); }
 
-    const ConversionInput& _input;
     SoftwareVertices& _vertices;
     DrawableTriangles& _triangles;
     const TextureConverter& _textures;
     ConversionReport& _report;
-    std::vector<osg::Matrixd> _worldFromLocal; // stack of transforms, never empty
-    ReferenceCullStack _cullStack;
     PathBudget _visits;
     PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
