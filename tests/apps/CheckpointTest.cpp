@@ -198,6 +198,8 @@ TEST_CASE("checkpoint: options that exclude each other are named", "[apps]")
         {"--merge x.exr -o x.png --denoise filter", "--merge excludes --denoise"},
         {"--merge x.exr -o x.png --context osmesa", "--merge excludes --context"},
         {"--merge x.exr -o x.png --names", "--merge excludes --names"},
+        {"--merge x.exr -o x.png --crop 0 0 4 4", "--merge excludes --crop"},
+        {"--merge x.exr -o x.png --sun 0 30", "--merge excludes lights"},
         {"--merge x.exr -o %d.png --frames 0:1", "--merge excludes --frames"},
         {"--merge x.exr -o x.png --reference x.exr", "--merge excludes --reference"},
         {renderOf("--checkpoint x.exr --write-materials x.json"),
