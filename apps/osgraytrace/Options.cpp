@@ -356,18 +356,6 @@ std::optional<Options> parseOptions(int argc, char** argv)
     return options;
 }
 
-void takeStoredSettings(const RayTraceSettings& stored, Options& options)
-{
-    options.settings = new RayTraceSettings(stored);
-    const auto known = RayTraceSettings::options();
-    const auto limit = std::find_if(known.begin(), known.end(),
-                                    [](const auto& option) { return option.name == "max-passes"; });
-    if (options.defaultPasses && stored.get(limit->name) == limit->defaultValue)
-        options.settings->setMaxPasses(*options.defaultPasses);
-    for (const auto& [name, value] : options.assignments)
-        options.settings->set(name, value);
-}
-
 std::string optionTable()
 {
     using Row = std::vector<std::string>;
