@@ -271,8 +271,9 @@ void PhysicalMaterial::setTexture(TextureUse use, osg::Texture2D* texture)
 void PhysicalMaterial::setTexturePlace(TextureUse use, const TexturePlace& place)
 {
     TexturePlace& member = _places[use];
-    if (place.unit > 1) engine::warnOnce("PhysicalMaterial: texture unit above 1; clamped");
-    member.unit = std::min(place.unit, 1u);
+    constexpr unsigned int kLastUnit = 7;
+    if (place.unit > kLastUnit) engine::warnOnce("PhysicalMaterial: texture unit above 7; clamped");
+    member.unit = std::min(place.unit, kLastUnit);
     for (int i = 0; i < 2; ++i)
     {
         assign("texture offset", member.offset[i], place.offset[i], -kLargest, kLargest);

@@ -162,7 +162,10 @@ Accessor AccessorReader::open(const JsonPlace& index) const
     Accessor accessor = layout(index);
     const auto decoded = _decoded.find(index.index(SIZE_MAX));
     if (decoded != _decoded.end())
-        accessor.bytes = decoded->second;
+    {
+        accessor.bytes = decoded->second.bytes;
+        accessor.count = decoded->second.count;
+    }
     else if (accessor.place.find("bufferView"))
         setBytes(accessor, accessor.place, *_document);
     return accessor;

@@ -64,8 +64,12 @@ public:
     /// Returns the elements of a scalar accessor of unsigned integers.
     std::vector<std::uint32_t> indices(const Accessor& accessor);
 
-    /// Sets the bytes of an accessor, decoded and without gaps, in place of those of its view.
-    void setDecoded(std::size_t accessor, const ByteRange& bytes) { _decoded[accessor] = bytes; }
+    /// Sets the bytes of an accessor, decoded and without gaps, in place of those of its view, and
+    /// how many elements they are.
+    void setDecoded(std::size_t accessor, const ByteRange& bytes, std::size_t count)
+    {
+        _decoded[accessor] = {bytes, count};
+    }
     void forgetDecoded() { _decoded.clear(); }
 
     Document& document() const { return *_document; }
@@ -84,7 +88,12 @@ private:
 
     Document* _document;
     Interleaved _interleaved;
-    std::map<std::size_t, ByteRange> _decoded; ///< by accessor
+    struct Decoded
+    {
+        ByteRange bytes;
+        std::size_t count = 0;
+    };
+    std::map<std::size_t, Decoded> _decoded; ///< by accessor
 };
 
 } // namespace osgRayTrace::gltf

@@ -9,6 +9,8 @@
 #include <osgAnimation/StackedScaleElement>
 #include <osgAnimation/StackedTranslateElement>
 
+#include <algorithm>
+
 namespace osgRayTrace::gltf
 {
 
@@ -49,6 +51,28 @@ AnimationReader::AnimationReader(Document& document, const NodeTree& tree)
     }
 }
 
+std::vector<float> AnimationReader::lowestWeights(std::size_t node, AccessorReader& accessors) const
+{
+    std::vector<float> lowest;
+    for (std::size_t i = 0; i < _document->count("animations"); ++i)
+    {
+        const JsonPlace place = _document->element("animations", i);
+        const JsonPlace channels = place.at("channels"), samplers = place.at("samplers");
+        for (std::size_t k = 0; k < channels.size(); ++k)
+        {
+            const JsonPlace channel = channels[k];
+            if (targetNode(channel, _movesNode.size()) != node) continue;
+            if (channel.at("target").at("path").text() != "weights") continue;
+            const JsonPlace sampler = samplers[channel.at("sampler").index(samplers.size())];
+            const std::vector<float> ofClip = lowestValues(readKeys(sampler, 1, accessors));
+            lowest.resize(std::max(lowest.size(), ofClip.size()));
+            for (std::size_t column = 0; column < ofClip.size(); ++column)
+                lowest[column] = std::min(lowest[column], ofClip[column]);
+        }
+    }
+    return lowest;
+}
+
 osg::ref_ptr<osgAnimation::Animation> AnimationReader::animation(const JsonPlace& place,
                                                                  AccessorReader& accessors) const
 {
@@ -81,7 +105,9 @@ osg::ref_ptr<osgAnimation::Animation> AnimationReader::animation(const JsonPlace
                 transformTarget(*node));
         else if (path.text() == "weights")
         {
-            const Keys keys = readKeys(sampler, 1, accessors);
+            Keys keys = readKeys(sampler, 1, accessors);
+            const auto shifts = _shifts.find(*node);
+            if (shifts != _shifts.end()) shiftValues(shifts->second, keys);
             for (std::size_t column = 0; column < keys.width; ++column)
                 add(weightChannel(keys, column), std::to_string(column), weightsTarget(*node));
         }

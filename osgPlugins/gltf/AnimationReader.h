@@ -9,6 +9,7 @@
 #include <osgAnimation/BasicAnimationManager>
 #include <osgAnimation/UpdateMatrixTransform>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,15 @@ public:
     bool movesNode(std::size_t node) const { return _movesNode[node]; }
     bool changesWeights(std::size_t node) const { return _changesWeights[node]; }
 
+    /// Returns for each morph target of a node's mesh the least weight that clips give it, or less.
+    std::vector<float> lowestWeights(std::size_t node, AccessorReader& accessors) const;
+
+    /// Adds to the weights that clips give the morph targets of a node's mesh.
+    void shiftWeights(std::size_t node, const std::vector<float>& shifts)
+    {
+        _shifts[node] = shifts;
+    }
+
     /// Returns the manager that plays the first animation from the first update traversal on; null
     /// if the file has none.
     osg::ref_ptr<osgAnimation::BasicAnimationManager> read(AccessorReader& accessors);
@@ -40,6 +50,7 @@ private:
 
     Document* _document;
     std::vector<bool> _movesNode, _changesWeights;
+    std::map<std::size_t, std::vector<float>> _shifts; ///< of weights, by node
 };
 
 /// Gives a callback the parts of a transform, which channels of transformTarget() change.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgPlugins/gltf/Attachments.h"
 
+#include <osgRayTrace/TracedLight>
+
 #include <osg/Light>
 #include <osg/Math>
 #include <osg/ValueObject>
@@ -98,6 +100,7 @@ osg::ref_ptr<osg::LightSource> readLight(Document& document, const JsonPlace& us
         document.root().at("extensions").at("KHR_lights_punctual").at("lights");
     const JsonPlace place = lights[use.at("light").index(lights.size())];
     const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    if (number >= kOpenGLLights) source->setLight(new TracedLight);
     osg::Light& light = *source->getLight();
     light.setLightNum(number);
     light.setName(place.textOr("name", ""));

@@ -7,6 +7,7 @@
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -20,6 +21,7 @@ namespace
 struct Limits
 {
     std::uint64_t faces, points; ///< of the accessors
+    bool strip;                  ///< faces is how many there may be, and not how many there are
     std::uint64_t bytes;         ///< of the library's work
 };
 
@@ -61,9 +63,9 @@ protected:
     {
         const auto counts = dracoCounts(*_bytes, _edgebreaker);
         if (!counts) return stop("is not of draco's version 2.2, or ends in its header");
-        if (counts->faces != _limits.faces)
+        if (_limits.strip ? counts->faces > _limits.faces : counts->faces != _limits.faces)
             return stop("has " + std::to_string(counts->faces) + " triangles, and the indices " +
-                        std::to_string(_limits.faces));
+                        (_limits.strip ? "at most " : "") + std::to_string(_limits.faces));
         // A mesh has no more vertices than corners, and points are split from vertices.
         if (counts->points > 3 * counts->faces || counts->seamAttributes > kMostAttributes ||
             counts->faces * (kFaceBytes + kSeamFaceBytes * counts->seamAttributes) > _limits.bytes)
@@ -197,7 +199,7 @@ bool readsDraco()
     return true;
 }
 
-DracoMesh decodeDraco(const std::string& compressed, const Accessor& indices,
+DracoMesh decodeDraco(const std::string& compressed, const Accessor& indices, bool strip,
                       const std::vector<DracoAttribute>& attributes, std::uint64_t mostBytes,
                       const JsonPlace& place)
 {
@@ -213,14 +215,16 @@ DracoMesh decodeDraco(const std::string& compressed, const Accessor& indices,
     if ((header.flags & METADATA_FLAG_MASK) != 0 && !isSmallDracoMetadata(bytes))
         place.refuse("has metadata that are damaged, or more than a mesh has use for");
     const std::size_t points = attributes.empty() ? 0 : attributes.front().layout.count;
-    const Limits limits{indices.count / 3, points, mostBytes};
+    const std::size_t faces =
+        strip ? indices.count - std::min<std::size_t>(indices.count, 2) : indices.count / 3;
+    const Limits limits{faces, points, strip, mostBytes};
     draco::Mesh mesh;
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
         decode<draco::MeshEdgebreakerDecoder>(again, true, limits, mesh, place);
     else
         decode<draco::MeshSequentialDecoder>(again, false, limits, mesh, place);
     // The library may leave out triangles without an area, and then has other counts.
-    if (mesh.num_faces() != limits.faces || mesh.num_points() != limits.points)
+    if ((!strip && mesh.num_faces() != limits.faces) || mesh.num_points() != limits.points)
         place.refuse("has other triangles than it says");
     DracoMesh result;
     result.indices = indicesOf(mesh, indices, place);

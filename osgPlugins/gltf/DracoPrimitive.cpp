@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr const char* kName = "KHR_draco_mesh_compression";
-constexpr std::uint64_t kTriangles = 4;
+constexpr std::uint64_t kTriangles = 4, kTriangleStrip = 5;
 constexpr std::uint64_t kIndices = std::numeric_limits<std::uint64_t>::max(); ///< no attribute's id
 // What the library may take for its work: so many times what the scene may still take, and so many
 // times the compressed bytes. A triangle has half a byte in the smoothest meshes, and takes 160.
@@ -60,20 +60,26 @@ void DracoPrimitive::checkOrigin(const JsonPlace& index, const Origin& origin)
 void DracoPrimitive::open(const JsonPlace& primitive)
 {
     _accessors->forgetDecoded();
+    _open = false;
     const auto extension = primitive.extension(kName);
     if (!extension || !readsDraco()) return;
     Document& document = _accessors->document();
-    if (primitive.wholeOr("mode", kTriangles) != kTriangles)
-        primitive.at("mode").refuse("is not that of triangles, which alone are read compressed");
+    const std::uint64_t mode = primitive.wholeOr("mode", kTriangles);
+    const bool strip = mode == kTriangleStrip;
+    if (mode != kTriangles && !strip)
+        primitive.at("mode").refuse("is not that of triangles or of a strip, which alone may be "
+                                    "compressed");
     const JsonPlace indexPlace = primitive.at("indices");
     const Accessor indices = _accessors->layout(indexPlace);
     if (indices.components != 1) indices.place.refuse("has indices that are no scalars");
-    if (indices.count % 3 != 0) indices.place.at("count").refuse("is no multiple of 3");
+    if (!strip && indices.count % 3 != 0) indices.place.at("count").refuse("is no multiple of 3");
     const std::vector<DracoAttribute> attributes = attributesOf(primitive, *extension, *_accessors);
 
     const std::size_t view = extension->at("bufferView").index(document.count("bufferViews"));
     const ByteRange range = document.bufferView(view);
-    std::uint64_t decoded = std::uint64_t(indices.count) * indices.elementSize();
+    // A strip of n indices is at most n - 2 triangles.
+    const std::uint64_t corners = (strip ? 3u : 1u) * std::uint64_t(indices.count);
+    std::uint64_t decoded = corners * indices.elementSize();
     for (const DracoAttribute& attribute : attributes)
         decoded += std::uint64_t(attribute.layout.count) * attribute.layout.elementSize();
     document.take(range.size + decoded, *extension);
@@ -82,15 +88,18 @@ void DracoPrimitive::open(const JsonPlace& primitive)
 
     const std::uint64_t work = kWorkShare * document.room() + kWorkOfByte * range.size;
     DracoMesh mesh =
-        decodeDraco(compressed, indices, attributes, work, extension->at("bufferView"));
+        decodeDraco(compressed, indices, strip, attributes, work, extension->at("bufferView"));
     checkOrigin(indexPlace, {view, kIndices});
-    _accessors->setDecoded(indexPlace.index(SIZE_MAX), rangeOf(std::move(mesh.indices)));
+    const std::size_t count = mesh.indices.size() / indices.elementSize();
+    _accessors->setDecoded(indexPlace.index(SIZE_MAX), rangeOf(std::move(mesh.indices)), count);
+    _open = true;
     std::size_t i = 0;
     for (const auto& member : extension->at("attributes").value().items())
     {
         const JsonPlace index = primitive.at("attributes").at(member.key().c_str());
         checkOrigin(index, {view, attributes[i].id});
-        _accessors->setDecoded(index.index(SIZE_MAX), rangeOf(std::move(mesh.attributes[i])));
+        _accessors->setDecoded(index.index(SIZE_MAX), rangeOf(std::move(mesh.attributes[i])),
+                               attributes[i].layout.count);
         ++i;
     }
 }

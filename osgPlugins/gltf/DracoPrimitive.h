@@ -13,9 +13,13 @@ public:
     explicit DracoPrimitive(AccessorReader& accessors) : _accessors(&accessors) {}
 
     /// Decodes a primitive of KHR_draco_mesh_compression if draco is built in: until the next call
-    /// its accessors have the decoded bytes. Primitives without the extension are left alone.
-    /// Throws GltfError.
+    /// its accessors have the decoded bytes. Draco knows triangles alone: the indices of a strip
+    /// are those of its triangles, too. Primitives without the extension are left alone. Throws
+    /// GltfError.
     void open(const JsonPlace& primitive);
+
+    /// Returns whether the last primitive was decoded: its indices are then those of triangles.
+    bool isOpen() const { return _open; }
 
 private:
     /// Where the values of an accessor come from.
@@ -28,6 +32,7 @@ private:
     void checkOrigin(const JsonPlace& index, const Origin& origin);
 
     AccessorReader* _accessors;
+    bool _open = false;
     std::map<std::size_t, Origin> _origins; ///< by accessor
 };
 

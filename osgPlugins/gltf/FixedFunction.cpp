@@ -58,27 +58,46 @@ osg::ref_ptr<osg::Material> materialOf(const MaterialValues& values, const Surfa
     return material;
 }
 
-void setTexture(const TextureUse& use, unsigned int unit, osg::TexEnv::Mode mode,
-                osg::StateSet& states)
+constexpr unsigned int kUnits = 8;    ///< as most of OpenGL's fixed functions have
+constexpr unsigned int kOwnUnits = 2; ///< sets that keep the unit of their number
+
+/// Returns a unit, from least on, for a texture of a set: that of its number, or one whose set no
+/// texture of the material uses. kUnits if there is none.
+unsigned int unitFor(unsigned int set, unsigned int least, unsigned int used)
 {
+    if (set >= least && set < kOwnUnits) return set;
+    unsigned int unit = least;
+    while (unit < kUnits && unit != set && (used >> unit & 1u))
+        ++unit;
+    return unit;
+}
+
+void setTexture(const TextureUse& use, unsigned int unit, osg::TexEnv::Mode mode, Surface& surface)
+{
+    if (unit >= kUnits) return;
+    if (unit != use.set) surface.extraUnits.push_back({unit, use.set});
+    osg::StateSet& states = *surface.states;
     states.setTextureAttributeAndModes(unit, use.texture);
     states.setTextureAttribute(unit, new osg::TexEnv(mode));
     if (use.transform)
         states.setTextureAttributeAndModes(unit, new osg::TexMat(use.transform->toMatrix()));
 }
 
-/// Textures use the unit of their UV set. What shines is added by a further unit.
+/// What shines is added by a unit behind that of the base colour. Surfaces that are not lit have
+/// the base colour alone.
 void setTextures(const MaterialValues& values, Surface& surface)
 {
+    const unsigned int used = surface.lit ? usedSets(values) : 0;
+    unsigned int next = 0;
     if (values.baseColorTexture)
-        setTexture(*values.baseColorTexture, values.baseColorTexture->set, osg::TexEnv::MODULATE,
-                   *surface.states);
+    {
+        const unsigned int unit = unitFor(values.baseColorTexture->set, 0, used);
+        setTexture(*values.baseColorTexture, unit, osg::TexEnv::MODULATE, surface);
+        next = unit + 1;
+    }
     if (!surface.lit || !values.emissionTexture || values.emission.length2() == 0.0f) return;
-    const unsigned int set = values.emissionTexture->set;
-    const bool taken = values.baseColorTexture && values.baseColorTexture->set >= set;
-    const unsigned int unit = taken ? values.baseColorTexture->set + 1 : set;
-    setTexture(*values.emissionTexture, unit, osg::TexEnv::ADD, *surface.states);
-    if (unit != set) surface.extraUnit = Surface::ExtraUnit{unit, set};
+    const unsigned int unit = unitFor(values.emissionTexture->set, next, used);
+    setTexture(*values.emissionTexture, unit, osg::TexEnv::ADD, surface);
 }
 
 void setAlpha(const MaterialValues& values, osg::StateSet& states)

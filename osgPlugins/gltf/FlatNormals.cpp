@@ -59,6 +59,23 @@ osg::ref_ptr<osg::Vec3Array> facetNormals(const osg::Vec3Array& positions)
     return normals;
 }
 
+/// Returns a target whose normals take the flat ones of the mesh to those of the moved mesh.
+MorphTarget flatTarget(const Vertices& flat, const osg::ref_ptr<osg::Vec3Array>& moves,
+                       const Corners& corners)
+{
+    MorphTarget target;
+    target.positions = gathered(moves, corners);
+    if (!target.positions) return target;
+    const osg::ref_ptr<osg::Vec3Array> moved =
+        new osg::Vec3Array(flat.positions->begin(), flat.positions->end());
+    for (std::size_t i = 0; i < moved->size(); ++i)
+        (*moved)[i] += (*target.positions)[i];
+    target.normals = facetNormals(*moved);
+    for (std::size_t i = 0; i < target.normals->size(); ++i)
+        (*target.normals)[i] -= (*flat.normals)[i];
+    return target;
+}
+
 } // namespace
 
 bool isOfTriangles(const osg::PrimitiveSet& primitives)
@@ -73,6 +90,7 @@ Vertices withFlatNormals(const Vertices& vertices, Document& document, const Jso
     osg::TriangleIndexFunctor<CollectCorners> collect;
     vertices.primitives->accept(collect);
     const Corners& corners = collect.corners;
+    document.take(std::uint64_t(corners.size()) * 24 * vertices.targets.size(), place);
 
     Vertices flat;
     flat.positions = gathered(vertices.positions, corners);
@@ -89,7 +107,7 @@ Vertices withFlatNormals(const Vertices& vertices, Document& document, const Jso
         flat.jointSets.push_back(std::move(own));
     }
     for (const MorphTarget& target : vertices.targets)
-        flat.targets.push_back({gathered(target.positions, corners), nullptr});
+        flat.targets.push_back(flatTarget(flat, target.positions, corners));
     flat.primitives = new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size()));
     return flat;
 }

@@ -5,7 +5,7 @@
 #include <osg/StateSet>
 #include <osg/Vec4>
 
-#include <optional>
+#include <vector>
 
 namespace osgRayTrace::gltf
 {
@@ -23,14 +23,15 @@ struct Surface
     osg::ref_ptr<osg::StateSet> states;
     osg::Vec4 color{1.0f, 1.0f, 1.0f, 1.0f}; ///< linear factor of what is not lit
     bool lit = true;
+    bool usesTangents = false; ///< a normal map or anisotropy, which rays follow
 
-    /// The unit of a texture whose UV set is in the unit of another texture: the geometry puts the
-    /// set into this unit, too.
+    /// The unit of a texture of OpenGL's that is not the unit of its UV set: the geometry puts the
+    /// set into this unit, too, in place of a set that the material does not use.
     struct ExtraUnit
     {
         unsigned int unit, set;
     };
-    std::optional<ExtraUnit> extraUnit;
+    std::vector<ExtraUnit> extraUnits;
 };
 
 } // namespace osgRayTrace::gltf

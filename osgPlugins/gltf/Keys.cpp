@@ -6,6 +6,8 @@
 #include <osg/Quat>
 #include <osg/Vec3>
 
+#include <algorithm>
+
 namespace osgRayTrace::gltf
 {
 
@@ -170,6 +172,35 @@ Keys readKeys(const JsonPlace& sampler, unsigned int components, AccessorReader&
     keys.values.resize(output.count * components);
     accessors.copyFloats(output, keys.values.data());
     return keys;
+}
+
+std::vector<float> lowestValues(const Keys& keys)
+{
+    std::vector<float> lowest;
+    for (std::size_t column = 0; column < keys.width; ++column)
+    {
+        const Rows<float> rows(keys, column);
+        float least = rows.value(0);
+        for (std::size_t i = 0; i < rows.count(); ++i)
+        {
+            least = std::min(least, rows.value(i));
+            if (keys.interpolation != Interpolation::CubicSpline || i + 1 == rows.count()) continue;
+            const float third = (rows.time(i + 1) - rows.time(i)) / 3.0f;
+            least = std::min(least, rows.value(i) + rows.tangentOut(i) * third);
+            least = std::min(least, rows.value(i + 1) - rows.tangentIn(i + 1) * third);
+        }
+        lowest.push_back(least);
+    }
+    return lowest;
+}
+
+void shiftValues(const std::vector<float>& shifts, Keys& keys)
+{
+    const bool spline = keys.interpolation == Interpolation::CubicSpline;
+    for (std::size_t row = spline ? 1 : 0; row * keys.width < keys.values.size();
+         row += spline ? 3 : 1)
+        for (std::size_t column = 0; column < std::min(keys.width, shifts.size()); ++column)
+            keys.values[row * keys.width + column] += shifts[column];
 }
 
 osg::ref_ptr<osgAnimation::Channel> vectorChannel(const Keys& keys)

@@ -31,6 +31,13 @@ struct Keys
 /// Reads a sampler whose rows have a multiple of so many numbers. Throws GltfError.
 Keys readKeys(const JsonPlace& sampler, unsigned int components, AccessorReader& accessors);
 
+/// Returns for each number of a row the least that it becomes, or less; of splines by their Bezier
+/// control points.
+std::vector<float> lowestValues(const Keys& keys);
+
+/// Adds to the numbers of each row, whose curves move as they are. A shift that is missing is 0.
+void shiftValues(const std::vector<float>& shifts, Keys& keys);
+
 /// Return a channel of the keys; weightChannel: of one number of each row. All begin at time 0,
 /// with the first value: osgAnimation repeats what lies between the first and the last key.
 osg::ref_ptr<osgAnimation::Channel> vectorChannel(const Keys& keys);

@@ -142,6 +142,21 @@ AlphaMode alphaModeOf(const JsonPlace& material)
 
 } // namespace
 
+unsigned int usedSets(const MaterialValues& values)
+{
+    unsigned int sets = 0;
+    for (const std::optional<TextureUse>* use :
+         {&values.baseColorTexture, &values.metallicRoughnessTexture, &values.normalTexture,
+          &values.emissionTexture, &values.transmissionTexture, &values.specularTexture,
+          &values.specularColorTexture, &values.clearcoatTexture, &values.clearcoatRoughnessTexture,
+          &values.clearcoatNormalTexture, &values.sheenColorTexture, &values.sheenRoughnessTexture,
+          &values.anisotropyTexture, &values.diffuseTransmissionTexture,
+          &values.diffuseTransmissionColorTexture, &values.iridescenceTexture,
+          &values.iridescenceThicknessTexture})
+        if (*use) sets |= 1u << (*use)->set;
+    return sets;
+}
+
 MaterialValues materialValues(const JsonPlace& material, TextureReader& textures,
                               Document& document)
 {

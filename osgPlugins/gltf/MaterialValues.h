@@ -61,6 +61,9 @@ struct MaterialValues
     std::optional<TextureUse> iridescenceTexture, iridescenceThicknessTexture;
 };
 
+/// Returns the UV sets that textures of a material use: bit n for set n.
+unsigned int usedSets(const MaterialValues& values);
+
 /// Reads a material. Throws GltfError.
 MaterialValues materialValues(const JsonPlace& material, TextureReader& textures,
                               Document& document);

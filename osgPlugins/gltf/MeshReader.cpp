@@ -57,9 +57,9 @@ void fill(osg::Geometry& geometry, const Vertices& vertices, const Surface& surf
         geometry.setVertexAttribArray(kTangentAttribute, vertices.tangents.get(), perVertex);
     for (unsigned int set = 0; set < vertices.texcoords.size(); ++set)
         geometry.setTexCoordArray(set, vertices.texcoords[set].get(), perVertex);
-    const auto& extra = surface.extraUnit;
-    if (extra && extra->set < vertices.texcoords.size() && extra->unit >= vertices.texcoords.size())
-        geometry.setTexCoordArray(extra->unit, vertices.texcoords[extra->set].get(), perVertex);
+    for (const Surface::ExtraUnit& extra : surface.extraUnits)
+        if (extra.set < vertices.texcoords.size())
+            geometry.setTexCoordArray(extra.unit, vertices.texcoords[extra.set].get(), perVertex);
     const bool factored = !surface.lit && surface.color != osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f);
     if (factored || (!surface.lit && !vertices.colors))
         geometry.setColorArray(unlitColors(vertices.colors.get(), surface.color).get());
@@ -94,9 +94,24 @@ std::optional<std::size_t> chosenVariant(const std::vector<std::string>& names, 
     return std::nullopt;
 }
 
-osg::ref_ptr<osg::Vec3Array> clone(const osg::Vec3Array& array)
+template <typename ArrayType> osg::ref_ptr<ArrayType> clone(const ArrayType& array)
 {
-    return new osg::Vec3Array(array, osg::CopyOp::DEEP_COPY_ARRAYS);
+    return new ArrayType(array, osg::CopyOp::DEEP_COPY_ARRAYS);
+}
+
+float valueOr0(const std::vector<float>& values, std::size_t i)
+{
+    return i < values.size() ? values[i] : 0.0f;
+}
+
+/// Takes a multiple of a target's moves from an array at rest.
+template <typename ArrayType>
+void subtract(const osg::ref_ptr<osg::Vec3Array>& moves, float factor, ArrayType* rest)
+{
+    if (!moves || !rest || factor == 0.0f) return;
+    for (std::size_t i = 0; i < rest->size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            (*rest)[i][c] -= factor * (*moves)[i][c];
 }
 
 } // namespace
@@ -153,7 +168,9 @@ const std::vector<MeshReader::Primitive>& MeshReader::primitives(std::size_t mes
         if (!vertices.normals && !unlit && isOfTriangles(*vertices.primitives))
             vertices = withFlatNormals(vertices, *_document, place);
         const SurfaceUse use{vertices.colors != nullptr, vertices.normals != nullptr};
-        result.push_back({place, std::move(vertices), &_surfaces.read(material, use)});
+        const Surface& surface = _surfaces.read(material, use);
+        if (surface.usesTangents) _vertices.readTargetTangents(place, vertices);
+        result.push_back({place, std::move(vertices), &surface});
     }
     return _primitives.emplace(mesh, std::move(result)).first->second;
 }
@@ -194,16 +211,24 @@ std::vector<float> MeshReader::weights(std::size_t mesh, const JsonPlace& node) 
 }
 
 osg::ref_ptr<osgAnimation::MorphGeometry>
-MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weights) const
+MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weights,
+                    const std::vector<float>& shifts) const
 {
     const Vertices& vertices = primitive.vertices;
     const osg::ref_ptr<osgAnimation::MorphGeometry> morph = new osgAnimation::MorphGeometry;
     fill(*morph, vertices, *primitive.surface);
     // The transform writes into these.
-    _document->take(vertices.count() * 48, primitive.place);
-    morph->setVertexArray(clone(*vertices.positions).get());
-    if (vertices.normals)
-        morph->setNormalArray(clone(*vertices.normals).get(), osg::Array::BIND_PER_VERTEX);
+    const bool movesTangents = vertices.tangents && !shifts.empty();
+    _document->take(vertices.count() * (movesTangents ? 64u : 48u), primitive.place);
+    const osg::ref_ptr<osg::Vec3Array> positions = clone(*vertices.positions);
+    morph->setVertexArray(positions.get());
+    const osg::ref_ptr<osg::Vec3Array> normalsAtRest =
+        vertices.normals ? clone(*vertices.normals) : nullptr;
+    if (normalsAtRest) morph->setNormalArray(normalsAtRest.get(), osg::Array::BIND_PER_VERTEX);
+    const osg::ref_ptr<osg::Vec4Array> tangents =
+        movesTangents ? clone(*vertices.tangents) : nullptr;
+    if (tangents)
+        morph->setVertexAttribArray(kTangentAttribute, tangents.get(), osg::Array::BIND_PER_VERTEX);
     morph->setMethod(osgAnimation::MorphGeometry::RELATIVE);
     bool normals = vertices.normals != nullptr;
     for (std::size_t i = 0; i < vertices.targets.size(); ++i)
@@ -213,8 +238,15 @@ MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weight
         geometry->setVertexArray(target.positions.get());
         if (target.normals)
             geometry->setNormalArray(target.normals.get(), osg::Array::BIND_PER_VERTEX);
+        if (target.tangents)
+            geometry->setVertexAttribArray(kTangentAttribute, target.tangents.get(),
+                                           osg::Array::BIND_PER_VERTEX);
         normals = normals && target.normals;
-        morph->addMorphTarget(geometry.get(), i < weights.size() ? weights[i] : 0.0f);
+        const float shift = valueOr0(shifts, i);
+        morph->addMorphTarget(geometry.get(), valueOr0(weights, i) + shift);
+        subtract(target.positions, shift, positions.get());
+        subtract(target.normals, shift, normalsAtRest.get());
+        subtract(target.tangents, shift, tangents.get());
     }
     morph->setMorphNormals(normals);
     morph->setMorphTransformImplementation(new osgAnimation::MorphTransformSoftware);
@@ -222,7 +254,8 @@ MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weight
     return morph;
 }
 
-osg::ref_ptr<osg::Geode> MeshReader::own(std::size_t mesh, const JsonPlace& node, const Skin* skin)
+osg::ref_ptr<osg::Geode> MeshReader::own(std::size_t mesh, const JsonPlace& node, const Skin* skin,
+                                         const std::vector<float>& shifts)
 {
     const osg::ref_ptr<osg::Geode> geode = emptyGeode(mesh);
     const std::vector<float> morphWeights = weights(mesh, node);
@@ -236,7 +269,7 @@ osg::ref_ptr<osg::Geode> MeshReader::own(std::size_t mesh, const JsonPlace& node
             fill(*geometry, primitive.vertices, *primitive.surface);
         }
         else
-            geometry = morphed(primitive, morphWeights);
+            geometry = morphed(primitive, morphWeights, shifts);
         geometry->setName(geode->getName());
         if (skin && !skin->bones.empty() && !primitive.vertices.jointSets.empty())
         {

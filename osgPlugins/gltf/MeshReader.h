@@ -24,8 +24,14 @@ public:
     osg::ref_ptr<osg::Geode> shared(std::size_t mesh);
 
     /// Returns a mesh for one node alone: morphed by the node's weights, or the mesh's own, and
-    /// moved by a skin unless it is null.
-    osg::ref_ptr<osg::Geode> own(std::size_t mesh, const JsonPlace& node, const Skin* skin);
+    /// moved by a skin unless it is null. shifts: what is added to the weight of each target, and
+    /// taken from the mesh at rest, so that osgAnimation finds no weight below 0, which it leaves
+    /// out.
+    osg::ref_ptr<osg::Geode> own(std::size_t mesh, const JsonPlace& node, const Skin* skin,
+                                 const std::vector<float>& shifts);
+
+    /// Returns the weights of a node's morph targets, as far as the file has some.
+    std::vector<float> weights(std::size_t mesh, const JsonPlace& node) const;
 
     AccessorReader& accessors() { return _vertices.accessors(); }
 
@@ -42,8 +48,8 @@ private:
     std::optional<std::size_t> materialOf(const JsonPlace& primitive) const;
     osg::ref_ptr<osg::Geode> emptyGeode(std::size_t mesh) const;
     osg::ref_ptr<osgAnimation::MorphGeometry> morphed(const Primitive& primitive,
-                                                      const std::vector<float>& weights) const;
-    std::vector<float> weights(std::size_t mesh, const JsonPlace& node) const;
+                                                      const std::vector<float>& weights,
+                                                      const std::vector<float>& shifts) const;
 
     Document* _document;
     VertexReader _vertices;

@@ -10,7 +10,7 @@ bool readsDraco()
     return false;
 }
 
-DracoMesh decodeDraco(const std::string&, const Accessor&, const std::vector<DracoAttribute>&,
+DracoMesh decodeDraco(const std::string&, const Accessor&, bool, const std::vector<DracoAttribute>&,
                       std::uint64_t, const JsonPlace& place)
 {
     place.refuse("is compressed by draco, which is not built in");

@@ -26,16 +26,12 @@ osg::Vec3 notNegative(const osg::Vec3& v)
 }
 
 void setTexture(const std::optional<TextureUse>& use, PhysicalMaterial::TextureUse as,
-                PhysicalMaterial& material, Document& document)
+                PhysicalMaterial& material)
 {
     if (!use) return;
     material.setTexture(as, use->texture.get());
     PhysicalMaterial::TexturePlace place;
-    place.unit = std::min(use->set, 1u);
-    if (use->set > 1)
-        document.note("material '" + material.getName() +
-                      "': a texture with the coordinates of set " + std::to_string(use->set) +
-                      " is looked up by set 1 in ray tracing");
+    place.unit = use->set;
     if (use->transform)
     {
         place.offset = use->transform->offset;
@@ -45,11 +41,11 @@ void setTexture(const std::optional<TextureUse>& use, PhysicalMaterial::TextureU
     material.setTexturePlace(as, place);
 }
 
-void setTextures(const MaterialValues& values, PhysicalMaterial& material, Document& document)
+void setTextures(const MaterialValues& values, PhysicalMaterial& material)
 {
     using Material = PhysicalMaterial;
     const auto set = [&](const std::optional<TextureUse>& use, Material::TextureUse as)
-    { setTexture(use, as, material, document); };
+    { setTexture(use, as, material); };
     set(values.baseColorTexture, Material::BASE_COLOR_TEXTURE);
     set(values.metallicRoughnessTexture, Material::METALLIC_ROUGHNESS_TEXTURE);
     set(values.transmissionTexture, Material::TRANSMISSION_TEXTURE);
@@ -71,8 +67,7 @@ void setTextures(const MaterialValues& values, PhysicalMaterial& material, Docum
 
 } // namespace
 
-osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bool vertexColors,
-                                                Document& document)
+osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bool vertexColors)
 {
     const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
     material->setName(values.name);
@@ -105,7 +100,7 @@ osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bo
     material->setIridescenceIor(std::clamp(values.iridescenceIor, 1.0f, 4.0f));
     material->setIridescenceThicknessMinimum(std::max(values.iridescenceThicknessMinimum, 0.0f));
     material->setIridescenceThicknessMaximum(std::max(values.iridescenceThicknessMaximum, 0.0f));
-    setTextures(values, *material, document);
+    setTextures(values, *material);
     return material;
 }
 

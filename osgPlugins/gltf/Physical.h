@@ -9,7 +9,6 @@
 namespace osgRayTrace::gltf
 {
 
-osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bool vertexColors,
-                                                Document& document);
+osg::ref_ptr<PhysicalMaterial> physicalMaterial(const MaterialValues& values, bool vertexColors);
 
 } // namespace osgRayTrace::gltf

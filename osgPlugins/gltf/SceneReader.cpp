@@ -18,7 +18,6 @@ namespace
 {
 
 constexpr int kFirstLight = 1; ///< viewers have their own light at 0
-constexpr int kLights = 8;     ///< OpenGL's
 constexpr std::uint64_t kNodeBytes = 512;
 
 bool mirrors(const osg::Matrix& m)
@@ -120,6 +119,29 @@ osg::ref_ptr<osg::Group> SceneReader::node(std::size_t index, const Above& above
     return group;
 }
 
+/// Returns what makes all weights of a node's morph targets positive; nothing if they are.
+std::vector<float> SceneReader::weightShifts(std::size_t index, std::size_t mesh)
+{
+    if (!_meshes.isMorphed(mesh)) return {};
+    std::vector<float> lowest = _meshes.weights(mesh, _document->element("nodes", index));
+    if (_animations.changesWeights(index))
+    {
+        const std::vector<float> ofClips = _animations.lowestWeights(index, _meshes.accessors());
+        lowest.resize(std::max(lowest.size(), ofClips.size()));
+        for (std::size_t i = 0; i < ofClips.size(); ++i)
+            lowest[i] = std::min(lowest[i], ofClips[i]);
+    }
+    bool any = false;
+    for (float& value : lowest)
+    {
+        value = std::max(-value, 0.0f);
+        any |= value > 0.0f;
+    }
+    if (!any) return {};
+    _animations.shiftWeights(index, lowest);
+    return lowest;
+}
+
 void SceneReader::addMesh(std::size_t index, std::size_t mesh, osg::Group& group)
 {
     const JsonPlace place = _document->element("nodes", index);
@@ -129,7 +151,8 @@ void SceneReader::addMesh(std::size_t index, std::size_t mesh, osg::Group& group
         return;
     }
     osg::ref_ptr<osg::Geode> geode =
-        _meshes.isMorphed(mesh) ? _meshes.own(mesh, place, nullptr) : _meshes.shared(mesh);
+        _meshes.isMorphed(mesh) ? _meshes.own(mesh, place, nullptr, weightShifts(index, mesh))
+                                : _meshes.shared(mesh);
     if (_animations.changesWeights(index) && _meshes.isMorphed(mesh))
     {
         const osg::ref_ptr<osgAnimation::UpdateMorph> callback = new osgAnimation::UpdateMorph;
@@ -184,12 +207,6 @@ void SceneReader::addAttachments(std::size_t index, osg::Group& group)
     const auto use = place.extension("KHR_lights_punctual");
     if (!use) return;
     const int number = kFirstLight + static_cast<int>(_lights.size());
-    if (number >= kLights)
-    {
-        _document->note(place.path() + ": its light is left out; OpenGL has 8, and the first is "
-                                       "the viewer's");
-        return;
-    }
     _lights.push_back(readLight(*_document, *use, number));
     group.addChild(_lights.back().get());
 }
@@ -201,7 +218,8 @@ void SceneReader::addSkinnedMeshes(osg::Group& skeleton)
     {
         const JsonPlace place = _document->element("nodes", mesh.node);
         const Skin& skin = _skins.read(mesh.skin, _bones, _meshes.accessors());
-        const osg::ref_ptr<osg::Geode> geode = _meshes.own(mesh.mesh, place, &skin);
+        const osg::ref_ptr<osg::Geode> geode =
+            _meshes.own(mesh.mesh, place, &skin, weightShifts(mesh.node, mesh.mesh));
         if (_animations.changesWeights(mesh.node) && _meshes.isMorphed(mesh.mesh))
         {
             const osg::ref_ptr<osgAnimation::UpdateMorph> callback = new osgAnimation::UpdateMorph;
@@ -236,6 +254,11 @@ osg::ref_ptr<osg::Node> SceneReader::read()
     addSkinnedMeshes(*parent);
     for (const auto& light : _lights)
         light->setStateSetModes(*top->getOrCreateStateSet(), osg::StateAttribute::ON);
+    constexpr std::size_t kShown = kOpenGLLights - kFirstLight;
+    if (_lights.size() > kShown)
+        _document->note("has " + std::to_string(_lights.size()) +
+                        " lights; OpenGL shows the first " + std::to_string(kShown) +
+                        " of them, beside the viewer's own, and rays all");
     const auto manager = _animations.read(_meshes.accessors());
     if (manager) top->setUpdateCallback(manager.get());
     if (!_skinnedMeshes.empty()) setRigBounds(*top, manager.get());

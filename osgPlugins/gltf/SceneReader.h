@@ -42,6 +42,7 @@ private:
                                           const Above& above);
     std::vector<std::size_t> bonesFirst(std::vector<std::size_t> nodes) const;
     void addMesh(std::size_t index, std::size_t mesh, osg::Group& group);
+    std::vector<float> weightShifts(std::size_t index, std::size_t mesh);
     void addInstances(const JsonPlace& instancing, osg::Node& mesh, osg::Group& group);
     void addAttachments(std::size_t index, osg::Group& group);
     void addSkinnedMeshes(osg::Group& skeleton);

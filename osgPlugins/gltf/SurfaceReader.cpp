@@ -30,10 +30,11 @@ const Surface& SurfaceReader::read(std::optional<std::size_t> material, const Su
     surface.lit = use.normals && !values.unlit;
     surface.color = values.baseColor;
     if (values.alphaMode == AlphaMode::Opaque) surface.color.a() = 1.0f;
+    surface.usesTangents = surface.lit && (values.normalTexture || values.clearcoatNormalTexture ||
+                                           values.anisotropy > 0.0f);
     setFixedFunction(values, use, surface);
     if (surface.lit)
-        surface.states->setAttributeAndModes(
-            physicalMaterial(values, use.colors, *_document).get());
+        surface.states->setAttributeAndModes(physicalMaterial(values, use.colors).get());
     return _surfaces.emplace(key, std::move(surface)).first->second;
 }
 

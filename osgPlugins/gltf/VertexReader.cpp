@@ -62,6 +62,15 @@ osg::ref_ptr<osg::PrimitiveSet> drawElements(AccessorReader& reader, const Acces
     return elements;
 }
 
+/// Refuses an attribute that is not one for each vertex.
+void checkCount(const osg::Array* array, const std::string& name, std::size_t vertices,
+                const JsonPlace& primitive)
+{
+    if (array && array->getNumElements() != vertices)
+        primitive.refuse("has " + std::to_string(array->getNumElements()) + " elements of " + name +
+                         " for " + std::to_string(vertices) + " vertices");
+}
+
 } // namespace
 
 /// Returns the elements of an accessor as an array, which is read straight from the file if it
@@ -161,12 +170,33 @@ std::vector<MorphTarget> VertexReader::targets(const JsonPlace& primitive)
     return result;
 }
 
+void VertexReader::readTargetTangents(const JsonPlace& primitive, Vertices& vertices)
+{
+    for (std::size_t i = 0; i < vertices.targets.size(); ++i)
+    {
+        const auto index = primitive.at("targets")[i].find("TANGENT");
+        if (!index) continue;
+        if (!vertices.tangents)
+        {
+            // Without normals, tangents of targets are to be ignored [glTF20, sect. 3.7.2.2].
+            if (primitive.at("attributes").find("NORMAL"))
+                _accessors.document().note(
+                    primitive.path() + ": has tangents of targets, but none of its own; rays have "
+                                       "tangents made of the moved vertices");
+            return;
+        }
+        MorphTarget& target = vertices.targets[i];
+        target.tangents = floats<osg::Vec3Array>(*index);
+        checkCount(target.tangents.get(), "a target's TANGENT", vertices.count(), primitive);
+    }
+}
+
 osg::ref_ptr<osg::PrimitiveSet> VertexReader::primitives(const JsonPlace& primitive,
                                                          std::size_t vertices)
 {
     const std::uint64_t number = primitive.wholeOr("mode", kTriangles);
     if (number > kTriangleFan) primitive.at("mode").refuse("is no mode of primitives");
-    const auto mode = static_cast<GLenum>(number);
+    const auto mode = static_cast<GLenum>(_draco.isOpen() ? kTriangles : number);
     const auto index = primitive.find("indices");
     const auto whole = [&](std::size_t count)
     {
@@ -207,12 +237,8 @@ osg::ref_ptr<osg::PrimitiveSet> VertexReader::primitives(const JsonPlace& primit
 void VertexReader::checkCounts(const Vertices& vertices, const JsonPlace& primitive) const
 {
     const std::size_t count = vertices.count();
-    const auto check = [&](const osg::Array* array, const std::string& name)
-    {
-        if (array && array->getNumElements() != count)
-            primitive.refuse("has " + std::to_string(array->getNumElements()) + " elements of " +
-                             name + " for " + std::to_string(count) + " vertices");
-    };
+    const auto check = [&](const osg::Array* array, const char* name)
+    { checkCount(array, name, count, primitive); };
     check(vertices.normals.get(), "NORMAL");
     check(vertices.tangents.get(), "TANGENT");
     check(vertices.colors.get(), "COLOR_0");

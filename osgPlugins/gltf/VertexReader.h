@@ -22,6 +22,7 @@ struct MorphTarget
 {
     osg::ref_ptr<osg::Vec3Array> positions;
     osg::ref_ptr<osg::Vec3Array> normals;
+    osg::ref_ptr<osg::Vec3Array> tangents; ///< null unless readTargetTangents was called
 };
 
 /// Joints, by their numbers in the skin, and weights: four of a vertex.
@@ -56,6 +57,10 @@ public:
 
     /// Reads a primitive. Accessors that several primitives use give one array. Throws GltfError.
     Vertices read(const JsonPlace& primitive);
+
+    /// Reads what targets move tangents by, for a surface that uses them; a line says so if they
+    /// cannot be moved, because the primitive has none. Throws GltfError.
+    void readTargetTangents(const JsonPlace& primitive, Vertices& vertices);
 
     AccessorReader& accessors() { return _accessors; }
 

@@ -8,6 +8,7 @@
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <locale>
@@ -201,7 +202,8 @@ bool setWord(PhysicalMaterial& material, const std::string& name, const std::str
     if (texture < 0) return false;
     const std::vector<float> v = valuesOf(word, 6);
     PhysicalMaterial::TexturePlace place;
-    place.unit = v[0] >= 1.0f ? 1 : 0;
+    constexpr float kLastUnit = 7.0f;
+    place.unit = v[0] >= 1.0f ? static_cast<unsigned int>(std::min(v[0], kLastUnit)) : 0;
     place.offset.set(v[1], v[2]);
     place.rotation = v[3];
     place.scale.set(v[4], v[5]);

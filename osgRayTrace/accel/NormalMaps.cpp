@@ -43,9 +43,8 @@ std::optional<Vec3> mappedAt(const TracedScene& traced, const RayHitBlock& rays,
     if (detail.textures[role] == kInvalid) return std::nullopt;
     const SurfaceRecord record = traced.surfaces()[surface.instance[i]];
     const float u = rays.u[i], v = rays.v[i];
-    const bool second = detail.places[role].set == 1;
-    const std::optional<SurfaceAxes> axes =
-        surfaceAxes(traced, {surface.instance[i], rays.primitive[i], u, v}, second, normal);
+    const std::optional<SurfaceAxes> axes = surfaceAxes(
+        traced, {surface.instance[i], rays.primitive[i], u, v}, detail.places[role].set, normal);
     if (!axes) return std::nullopt;
 
     const bool front = (surface.front >> i) & 1u;

@@ -46,6 +46,16 @@ void setGenerated(const SurfaceRecord& record, uint32_t primitive, float u, floa
     if (length > 0.0f && length < kInfinity) point.normal = normal / length;
 }
 
+/// Sets the texture coordinates of the sets that few materials read.
+void setMoreUvs(const SurfaceRecord& record, unsigned int sets, uint32_t primitive, float u,
+                float v, MaterialPoint& point)
+{
+    for (uint32_t set = kFirstMoreUvs; set < kUvSets; ++set)
+        if (sets >> set & 1u)
+            point.setUv(set,
+                        interpolate(record, record.uvsOfSet(set), primitive, u, v, Vec2(0.0f)));
+}
+
 } // namespace
 
 Vec2 interpolateUv(const SurfaceRecord& record, uint32_t primitive, float u, float v)
@@ -70,6 +80,7 @@ MaterialPoint materialPointOf(const SurfaceRecord& record, const MaterialRecord&
     point.vertexColor = interpolateColor(record, primitive, u, v);
     point.direction = direction;
     if (material.generated) setGenerated(record, primitive, u, v, point);
+    if (material.uvSets) setMoreUvs(record, material.uvSets, primitive, u, v, point);
     return point;
 }
 
@@ -95,6 +106,10 @@ void setTextureWidths(const SurfaceRecord& record, uint32_t primitive, float foo
     point.footprint = footprint;
     point.uvWidth = footprint * textureScale(record, record.uvs, primitive);
     point.uv1Width = footprint * textureScale(record, record.uvs1, primitive);
+    if (!record.moreUvs) return;
+    for (uint32_t set = kFirstMoreUvs; set < kUvSets; ++set)
+        point.moreWidths[set - kFirstMoreUvs] =
+            footprint * textureScale(record, record.uvsOfSet(set), primitive);
 }
 
 } // namespace osgRayTrace::engine

@@ -16,9 +16,11 @@ template <class T> const T* dataOf(const SharedArray<T>& array)
 
 MeshArrays arraysOf(const Mesh& mesh)
 {
-    return {dataOf(mesh.triangles), dataOf(mesh.positions), dataOf(mesh.normals),
-            dataOf(mesh.uvs),       dataOf(mesh.uvs1),      dataOf(mesh.rs),
-            dataOf(mesh.rs1),       dataOf(mesh.colors),    dataOf(mesh.tangents)};
+    return {dataOf(mesh.triangles), dataOf(mesh.positions),
+            dataOf(mesh.normals),   dataOf(mesh.uvs),
+            dataOf(mesh.uvs1),      dataOf(mesh.rs),
+            dataOf(mesh.rs1),       dataOf(mesh.colors),
+            dataOf(mesh.tangents),  mesh.moreUvs.empty() ? nullptr : &mesh.moreUvs};
 }
 
 } // namespace

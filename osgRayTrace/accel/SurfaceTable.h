@@ -22,6 +22,16 @@ struct MeshArrays
     const float* rs1 = nullptr;
     const Vec4* colors = nullptr;
     const Vec4* tangents = nullptr;
+    const std::vector<SharedArray<Vec2>>* moreUvs = nullptr; ///< null: there are none
+
+    /// Returns the texture coordinates of a set; null if there are none.
+    const Vec2* uvsOfSet(uint32_t set) const
+    {
+        if (set < kFirstMoreUvs) return set == 0 ? uvs : uvs1;
+        const std::size_t more = set - kFirstMoreUvs;
+        if (!moreUvs || more >= moreUvs->size() || (*moreUvs)[more].empty()) return nullptr;
+        return (*moreUvs)[more].data();
+    }
 };
 
 /// The mesh of an instance with the transform, the material and the light of the instance.

@@ -62,23 +62,23 @@ Tangent tangentOfTriangle(const SurfaceRecord& record, UVec3 t, const Vec2* uvs,
 
 /// Returns the tangent at a point: the mesh's own, the one that was made for its vertices, or that
 /// of the flat triangle.
-static Tangent tangentAt(const TracedScene& traced, const TrianglePoint& point, bool second,
+static Tangent tangentAt(const TracedScene& traced, const TrianglePoint& point, uint32_t uvSet,
                          Vec3 normal)
 {
     const SurfaceRecord record = traced.surfaces()[point.instance];
     const UVec3 t = record.triangles[point.primitive];
     if (record.tangents) return meanTangent(record, record.tangents, t, point.u, point.v);
-    const VertexTangents* made = traced.vertexTangents(point.instance, second);
-    if (!made) return tangentOfTriangle(record, t, second ? record.uvs1 : record.uvs, normal);
+    const VertexTangents* made = traced.vertexTangents(point.instance, uvSet);
+    if (!made) return tangentOfTriangle(record, t, record.uvsOfSet(uvSet), normal);
     const UVec3 own = made->triangles[point.primitive];
     if (own.x == kInvalid || own.y == kInvalid || own.z == kInvalid) return {};
     return meanTangent(record, made->tangents.data(), own, point.u, point.v);
 }
 
 std::optional<SurfaceAxes> surfaceAxes(const TracedScene& traced, const TrianglePoint& point,
-                                       bool second, Vec3 normal)
+                                       uint32_t uvSet, Vec3 normal)
 {
-    Tangent tangent = tangentAt(traced, point, second, normal);
+    Tangent tangent = tangentAt(traced, point, uvSet, normal);
     tangent.direction -= normal * glm::dot(normal, tangent.direction);
     const float length = glm::length(tangent.direction);
     if (!(length > 0.0f) || !(length < kInfinity)) return std::nullopt;
@@ -92,7 +92,7 @@ static void alignTangent(const TracedScene& traced, const RayHitBlock& rays,
     const MaterialDetail& detail = *traced.materials()[surface.material[i]].material->detail;
     const std::optional<SurfaceAxes> axes =
         surfaceAxes(traced, {surface.instance[i], rays.primitive[i], rays.u[i], rays.v[i]},
-                    detail.places[kAnisotropyRole].set == 1, laneOf(surface.shadingNormal, i));
+                    detail.places[kAnisotropyRole].set, laneOf(surface.shadingNormal, i));
     if (axes)
     {
         const Vec3 along = axes->tangent * bsdf.tangent.x + axes->bitangent * bsdf.tangent.y;

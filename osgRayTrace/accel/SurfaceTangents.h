@@ -25,10 +25,10 @@ struct TrianglePoint
 };
 
 /// Returns the axes at a point of a mesh: its tangents, or the directions of its texture
-/// coordinates, as applyNormalMaps says. second: those of unit 1. Nothing if the mesh has neither,
-/// or if there is no area in the texture.
+/// coordinates of that set, as applyNormalMaps says. Nothing if the mesh has neither, or if there
+/// is no area in the texture.
 std::optional<SurfaceAxes> surfaceAxes(const TracedScene& traced, const TrianglePoint& point,
-                                       bool second, Vec3 normal);
+                                       uint32_t uvSet, Vec3 normal);
 
 /// Turns what depends on the axes of the mesh, see Bsdf::needsAxes, to those of frameOf(normal), in
 /// which the Bsdf is evaluated; normal: as facingNormalLanes sets it. That is the tangent of an

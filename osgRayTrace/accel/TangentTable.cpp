@@ -12,74 +12,73 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Tells by which texture coordinates a material needs axes.
-struct NeededAxes
+/// Returns the sets of texture coordinates by which a material needs axes: bit n for set n.
+unsigned int neededSets(const Material& material)
 {
-    bool first = false, second = false;
-
-    void add(const MaterialDetail& detail, TextureRole role)
-    {
-        (detail.places[role].set == 1 ? second : first) = true;
-    }
-};
-
-NeededAxes neededAxes(const Material& material)
-{
-    NeededAxes needed;
-    if (!material.detail) return needed;
+    if (!material.detail) return 0;
     const MaterialDetail& detail = *material.detail;
-    if (hasNormalMap(material)) needed.add(detail, kNormalRole);
+    const auto bit = [&detail](TextureRole role) { return 1u << detail.places[role].set; };
+    unsigned int sets = 0;
+    if (hasNormalMap(material)) sets |= bit(kNormalRole);
     if (hasCoatNormals(material) && detail.textures[kClearcoatNormalRole] != kInvalid)
-        needed.add(detail, kClearcoatNormalRole);
-    if (detail.anisotropy > 0.0f) needed.add(detail, kAnisotropyRole);
-    return needed;
+        sets |= bit(kClearcoatNormalRole);
+    if (detail.anisotropy > 0.0f) sets |= bit(kAnisotropyRole);
+    return sets;
 }
 
-bool lacksTangents(const Mesh& mesh, bool second)
+bool lacksTangents(const Mesh& mesh, uint32_t set)
 {
-    const SharedArray<Vec2>& uvs = second ? mesh.uvs1 : mesh.uvs;
     return mesh.tangents.empty() && !mesh.triangles.empty() && !mesh.normals.empty() &&
-           !uvs.empty();
+           !uvsOfSet(mesh, set).empty();
 }
+
+/// The tangents of a mesh that are to be made, and where they belong.
+struct Task
+{
+    uint32_t mesh, set;
+    std::shared_ptr<const VertexTangents>* made;
+};
 
 } // namespace
 
 TangentTable::TangentTable(const Scene& scene, const TangentTable* previous, const Workers& workers)
     : _scene(&scene)
 {
-    std::vector<NeededAxes> byMaterial;
+    std::vector<unsigned int> byMaterial;
     bool any = false;
     for (const Material& material : scene.materials)
     {
-        byMaterial.push_back(neededAxes(material));
-        any |= byMaterial.back().first || byMaterial.back().second;
+        byMaterial.push_back(neededSets(material));
+        any |= byMaterial.back() != 0;
     }
     if (!any) return;
-    std::vector<std::array<bool, 2>> needed(scene.meshes.size());
+    std::vector<unsigned int> needed(scene.meshes.size());
     for (const Instance& instance : scene.instances)
-    {
-        const Mesh& mesh = *scene.meshes[instance.mesh];
-        const NeededAxes& axes = byMaterial[instance.material];
-        needed[instance.mesh][0] |= axes.first && lacksTangents(mesh, false);
-        needed[instance.mesh][1] |= axes.second && lacksTangents(mesh, true);
-    }
+        needed[instance.mesh] |= byMaterial[instance.material];
     _tangents.resize(needed.size());
-    const auto stays = [&](std::size_t i)
+    std::vector<Task> tasks;
+    for (uint32_t mesh = 0; mesh < needed.size(); ++mesh)
+        for (uint32_t set = 0; needed[mesh] >> set != 0; ++set)
+        {
+            if (!(needed[mesh] >> set & 1u) || !lacksTangents(*scene.meshes[mesh], set)) continue;
+            auto& made = set < kFirstMoreUvs ? _tangents[mesh][set] : _more[{mesh, set}];
+            tasks.push_back({mesh, set, &made});
+        }
+    const auto kept = [&](const Task& task) -> const Tangents*
     {
-        return previous && i < previous->_tangents.size() &&
-               previous->_scene->meshes[i] == scene.meshes[i];
+        const bool stays = previous && task.mesh < previous->_tangents.size() &&
+                           previous->_scene->meshes[task.mesh] == scene.meshes[task.mesh];
+        return stays ? previous->slot(task.mesh, task.set) : nullptr;
     };
-    workers.forEach(2 * needed.size(),
-                    [&](std::size_t task)
+    workers.forEach(tasks.size(),
+                    [&](std::size_t i)
                     {
-                        const std::size_t i = task / 2, unit = task % 2;
-                        if (!needed[i][unit]) return;
-                        auto& made = _tangents[i][unit];
-                        if (stays(i)) made = previous->_tangents[i][unit];
-                        const Mesh& mesh = *scene.meshes[i];
-                        if (!made)
-                            made = std::make_shared<const VertexTangents>(
-                                vertexTangents(mesh, unit == 1 ? mesh.uvs1 : mesh.uvs));
+                        const Task& task = tasks[i];
+                        if (const Tangents* before = kept(task)) *task.made = *before;
+                        if (*task.made) return;
+                        const Mesh& mesh = *scene.meshes[task.mesh];
+                        *task.made = std::make_shared<const VertexTangents>(
+                            vertexTangents(mesh, uvsOfSet(mesh, task.set)));
                     });
 }
 

@@ -373,9 +373,9 @@ const LightTable& TracedScene::lights() const
 {
     return *_implementation->lights;
 }
-const VertexTangents* TracedScene::vertexTangents(uint32_t instance, bool second) const
+const VertexTangents* TracedScene::vertexTangents(uint32_t instance, uint32_t uvSet) const
 {
-    return _implementation->tangents.find(_implementation->scene->instances[instance].mesh, second);
+    return _implementation->tangents.find(_implementation->scene->instances[instance].mesh, uvSet);
 }
 const BuildStatistics& TracedScene::statistics() const
 {

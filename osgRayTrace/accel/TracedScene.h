@@ -52,9 +52,9 @@ public:
     const MaterialTable& materials() const;
     const LightTable& lights() const;
     /// Returns the tangents that were made for the mesh of an instance by the texture coordinates
-    /// of unit 0 or 1; null if its material needs none, or if it has tangents of its own, no
+    /// of a set; null if its material needs none, or if it has tangents of its own, no
     /// normals or no coordinates.
-    const VertexTangents* vertexTangents(uint32_t instance, bool second) const;
+    const VertexTangents* vertexTangents(uint32_t instance, uint32_t uvSet) const;
     const BuildStatistics& statistics() const;
 
     /// Returns the bytes that the device holds now, as Embree reports them: those of this scene, of

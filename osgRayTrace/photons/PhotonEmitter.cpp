@@ -251,9 +251,9 @@ std::optional<PhotonStart> PhotonEmitter::emitArea(uint32_t index, const Emissio
     if (light.kind == LightKind::Mesh)
     {
         MaterialPoint at;
-        at.uv = from->uv;
-        radiance =
-            _traced.materials().emission(_traced.scene().instances[light.instance].material, at);
+        const uint32_t material = _traced.scene().instances[light.instance].material;
+        at.setUv(emissionUvSet(_traced.scene().materials[material]), from->uv);
+        radiance = _traced.materials().emission(material, at);
     }
     const Cones cones = conesFrom(from->position, 0.0f, guide);
     const float share = cones.count ? _guidedShare : 0.0f;

@@ -25,7 +25,7 @@ struct Light
 {
     std::string name;
     LightKind kind = LightKind::Point;
-    uint32_t number = 0; ///< number of the osg::Light: see isLightEnabled
+    uint32_t number = 0; ///< number of the osg::Light, or kNoLightNumber: see isLightEnabled
 
     /// True for a headlight: position and direction are in view space (x right, y up, looking along
     /// -z) and in world lengths. RenderSession places the headlight for each view.

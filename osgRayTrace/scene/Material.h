@@ -114,7 +114,7 @@ enum TextureRole : uint32_t
 /// Tells where a physical texture is looked up: at offset + u x + v y for coordinates (x, y).
 struct TexturePlace
 {
-    uint32_t set = 0; ///< 0: Mesh::uvs, 1: Mesh::uvs1
+    uint32_t set = 0; ///< below kUvSets: see uvsOfSet
     Vec2 u{1.0f, 0.0f}, v{0.0f, 1.0f}, offset{0.0f};
 };
 
@@ -237,6 +237,12 @@ inline uint32_t textureOf(const Material& m, TextureRole role)
     }
 }
 
+/// Returns the set of texture coordinates that decides on the emission.
+inline uint32_t emissionUvSet(const Material& m)
+{
+    return m.detail ? m.detail->places[kEmissionRole].set : 0;
+}
+
 /// Returns whether the textures of a role are normal maps.
 inline bool isNormalRole(uint32_t role)
 {
@@ -270,10 +276,14 @@ inline bool hasCoatNormals(const Material& m)
     return own || hasNormalMap(m);
 }
 
+/// The number of a light that no mode switches: it is enabled everywhere.
+constexpr uint32_t kNoLightNumber = kInvalid;
+
 /// Returns whether the osg::Light of a number is enabled on the surface.
 inline bool isLightEnabled(const Material& m, uint32_t number)
 {
     if (number < 32) return (m.lightMask >> number & 1u) != 0;
+    if (number == kNoLightNumber) return true;
     const std::size_t word = number / 32 - 1;
     return word < m.moreLights.size() && (m.moreLights[word] >> number % 32 & 1u) != 0;
 }

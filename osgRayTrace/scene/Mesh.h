@@ -4,9 +4,11 @@
 
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/base/SharedArray.h"
+#include "osgRayTrace/scene/TextureMapping.h"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -25,7 +27,9 @@ struct Mesh
     SharedArray<Vec2> uvs;        ///< texture unit 0, one a position; may be empty
     SharedArray<Vec2> uvs1;       ///< texture unit 1; may be empty
     SharedArray<float> rs, rs1;   ///< third coordinates of units 0 and 1; empty: 0
-    SharedArray<Vec4> colors;     ///< RGBA vertex colours, one a position; may be empty
+    /// Coordinates of texture unit kFirstMoreUvs + i; those that no material reads are empty.
+    std::vector<SharedArray<Vec2>> moreUvs;
+    SharedArray<Vec4> colors; ///< RGBA vertex colours, one a position; may be empty
     /// Directions in which s grows, with the sign of the bitangent w cross(normal, tangent), of any
     /// length, one a position; empty: VertexTangents.h makes them where materials need them.
     SharedArray<Vec4> tangents;
@@ -34,6 +38,15 @@ struct Mesh
     bool deforms = false;
     Stamp changed = 0;
 };
+
+/// Returns the texture coordinates of a set, which may be empty.
+inline const SharedArray<Vec2>& uvsOfSet(const Mesh& mesh, uint32_t set)
+{
+    static const SharedArray<Vec2> none;
+    if (set < kFirstMoreUvs) return set == 0 ? mesh.uvs : mesh.uvs1;
+    const std::size_t more = set - kFirstMoreUvs;
+    return more < mesh.moreUvs.size() ? mesh.moreUvs[more] : none;
+}
 
 /// Places a mesh in the scene with a material. A scene may hold very many instances, so that there
 /// is no member more than needed.

@@ -16,7 +16,7 @@ namespace
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
-static_assert(sizeof(Mesh) == 336 && sizeof(Instance) == 72);
+static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
 static_assert(sizeof(MaterialDetail) == 652 && sizeof(Material) == 616 && sizeof(Fog) == 28);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
@@ -67,6 +67,12 @@ void addMesh(const Mesh& mesh, Hasher& hasher)
     hasher.addArray(mesh.rs1);
     hasher.addArray(mesh.colors);
     hasher.addArray(mesh.tangents);
+    for (std::size_t i = 0; i < mesh.moreUvs.size(); ++i)
+    {
+        if (mesh.moreUvs[i].empty()) continue;
+        hasher.add(static_cast<uint64_t>(i));
+        hasher.addArray(mesh.moreUvs[i]);
+    }
 }
 
 void addInstance(const Instance& instance, Hasher& hasher)

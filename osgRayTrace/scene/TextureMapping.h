@@ -9,6 +9,13 @@
 namespace osgRayTrace::engine
 {
 
+/// Sets of texture coordinates that a mesh may have. Fixed-function units read sets 0 and 1, and
+/// textures of physical materials any.
+constexpr uint32_t kUvSets = 8;
+
+/// First set of those that few meshes have: Mesh::moreUvs.
+constexpr uint32_t kFirstMoreUvs = 2;
+
 /// Tells from what a unit's texture coordinates are made [OpenGL21, sect. 2.11.4].
 enum class TextureCoordinates : uint8_t
 {

@@ -44,7 +44,7 @@ bool emitsUnevenly(const Material& material)
 }
 
 /// Returns the mean of a triangle's radiance over a grid of points.
-Vec3 meanRadiance(const MaterialTable& materials, uint32_t material,
+Vec3 meanRadiance(const MaterialTable& materials, uint32_t material, uint32_t uvSet,
                   const EmissiveMesh::Triangle& triangle, float texelsAcross)
 {
     const int n = std::clamp(static_cast<int>(texelsAcross), kLeastLookups, kMostLookups);
@@ -56,7 +56,7 @@ Vec3 meanRadiance(const MaterialTable& materials, uint32_t material,
             const float u = (static_cast<float>(i) + 1.0f / 3.0f) / static_cast<float>(n);
             const float v = (static_cast<float>(j) + 1.0f / 3.0f) / static_cast<float>(n);
             MaterialPoint point;
-            point.uv = triangle.ua + u * triangle.uab + v * triangle.uac;
+            point.setUv(uvSet, triangle.ua + u * triangle.uab + v * triangle.uac);
             sum += materials.emission(material, point);
         }
     return sum / static_cast<float>(count);
@@ -118,8 +118,8 @@ void setMesh(const EmitterSources& from, uint32_t index, LightEmitter* emitters)
             Vec3 radiance = light.radiance;
             if (textured)
             {
-                radiance =
-                    meanRadiance(*from.materials, number, t, texelsAcross(from.scene, material, t));
+                radiance = meanRadiance(*from.materials, number, emissionUvSet(material), t,
+                                        texelsAcross(from.scene, material, t));
                 radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
             }
             emitters[k] = triangleEmitter(t, index, radiance, textured);

@@ -65,8 +65,8 @@ std::vector<float> cumulativeOf(const std::vector<double>& weights)
 constexpr std::size_t kTrianglesAtOnce = 4096;
 
 /// Sets a triangle of a mesh, and returns its area.
-double setTriangle(const Mesh& mesh, const Instance& instance, std::size_t number,
-                   EmissiveMesh::Triangle& triangle)
+double setTriangle(const Mesh& mesh, const SharedArray<Vec2>& uvs, const Instance& instance,
+                   std::size_t number, EmissiveMesh::Triangle& triangle)
 {
     const UVec3& t = mesh.triangles[number];
     Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
@@ -77,11 +77,11 @@ double setTriangle(const Mesh& mesh, const Instance& instance, std::size_t numbe
     triangle.ab = p[1] - p[0];
     triangle.ac = p[2] - p[0];
     triangle.primitive = static_cast<uint32_t>(number);
-    if (!mesh.uvs.empty())
+    if (!uvs.empty())
     {
-        triangle.ua = mesh.uvs[t.x];
-        triangle.uab = mesh.uvs[t.y] - triangle.ua;
-        triangle.uac = mesh.uvs[t.z] - triangle.ua;
+        triangle.ua = uvs[t.x];
+        triangle.uab = uvs[t.y] - triangle.ua;
+        triangle.uac = uvs[t.z] - triangle.ua;
     }
     const double area = 0.5 * glm::length(glm::cross(Vec3d(triangle.ab), Vec3d(triangle.ac)));
     triangle.area = static_cast<float>(area);
@@ -243,6 +243,8 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
 {
     const Instance& instance = scene.instances[light.instance];
     const Mesh& mesh = *scene.meshes[instance.mesh];
+    const SharedArray<Vec2>& uvs =
+        uvsOfSet(mesh, emissionUvSet(scene.materials[instance.material]));
     EmissiveMesh emissive;
     emissive.triangles.resize(mesh.triangles.size());
     std::vector<double> areas(mesh.triangles.size());
@@ -250,7 +252,7 @@ EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& 
                 [&](std::size_t begin, std::size_t end)
                 {
                     for (std::size_t k = begin; k < end; ++k)
-                        areas[k] = setTriangle(mesh, instance, k, emissive.triangles[k]);
+                        areas[k] = setTriangle(mesh, uvs, instance, k, emissive.triangles[k]);
                 });
     std::size_t kept = 0;
     double total = 0.0;

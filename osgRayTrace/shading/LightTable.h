@@ -21,7 +21,7 @@ struct AreaLightSample
     Vec3 wi{0.0f}; ///< unit, from the lit point towards the light
     float distance = 0.0f;
     float cosThetaL = 0.0f; ///< cosine at the light, > 0 on an emitting side
-    Vec2 uv{0.0f};          ///< texture coordinates of the point
+    Vec2 uv{0.0f};          ///< texture coordinates of the point, of emissionUvSet
     float pdfW = 0.0f;      ///< [1/sr] with respect to the lit point
     Vec3 point{0.0f};       ///< the point on the light
     Vec3 normal{0.0f};      ///< unit, normal of the light at the point; of either side
@@ -34,7 +34,7 @@ struct LightPoint
 {
     Vec3 position{0.0f};
     Vec3 normal{0.0f};   ///< unit, of the light's front
-    Vec2 uv{0.0f};       ///< texture coordinates of the point
+    Vec2 uv{0.0f};       ///< texture coordinates of the point, of emissionUvSet
     float offset = 0.0f; ///< along the normal: clears the light's own surface [length]
 };
 
@@ -51,8 +51,8 @@ struct EmissiveMesh
 {
     struct Triangle
     {
-        Vec3 a{0.0f}, ab{0.0f}, ac{0.0f}; ///< engine space
-        Vec2 ua{0.0f}, uab{0.0f}, uac{0.0f};
+        Vec3 a{0.0f}, ab{0.0f}, ac{0.0f};    ///< engine space
+        Vec2 ua{0.0f}, uab{0.0f}, uac{0.0f}; ///< of emissionUvSet
         float area = 0.0f;
         uint32_t primitive = 0; ///< triangle of the mesh
     };

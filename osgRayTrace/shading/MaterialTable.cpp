@@ -134,6 +134,8 @@ MaterialTable::MaterialTable(const Scene& scene) : _scene(&scene)
         if (!isInvisible(material)) // invisible: not traced, so that no photons are guided to it
         {
             MaterialPoint point;
+            point.moreUvs.fill(Vec2(0.0f));
+            point.moreWidths.fill(0.0f);
             record.front = bsdf(i, point);
             point.front = false;
             record.back = bsdf(i, point);

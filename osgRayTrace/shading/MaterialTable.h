@@ -40,6 +40,7 @@ struct MaterialRecord
     bool normalMap = false; ///< true: a texture decides on the shading normals
     bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
     bool absorbs = false;   ///< true: the body below the surface absorbs light
+    uint8_t uvSets = 0;     ///< bit n: a texture reads set n, from kFirstMoreUvs on
     Vec3 absorption{0.0f};  ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
 };
 
@@ -136,14 +137,14 @@ private:
 /// Returns where a texture of a physical material is looked up.
 inline Vec2 placedUv(const TexturePlace& place, const TexturePoint& point)
 {
-    const Vec2 uv = place.set == 0 ? point.uv : point.uv1;
+    const Vec2 uv = point.uvOfSet(place.set);
     return place.offset + place.u * uv.x + place.v * uv.y;
 }
 
 /// Returns the width of the footprint where a texture of a physical material is looked up.
 inline float placedWidth(const TexturePlace& place, const TexturePoint& point)
 {
-    const float width = place.set == 0 ? point.uvWidth : point.uv1Width;
+    const float width = point.widthOfSet(place.set);
     return width * std::sqrt(std::fabs(place.u.x * place.v.y - place.u.y * place.v.x));
 }
 

@@ -22,6 +22,10 @@ void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
 {
     const MaterialDetail& detail = *m.detail;
     record.normalMap = hasNormalMap(m);
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        if (textureOf(m, static_cast<TextureRole>(role)) != kInvalid &&
+            detail.places[role].set >= kFirstMoreUvs)
+            record.uvSets |= static_cast<uint8_t>(1u << detail.places[role].set);
     record.pane =
         detail.thinWalled && m.transmission > 0.0f && m.metallic < 1.0f &&
         (m.roughness * m.roughness < kSmoothAlpha || m.metallicRoughnessTexture != kInvalid);

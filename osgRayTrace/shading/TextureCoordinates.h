@@ -4,6 +4,8 @@
 
 #include "osgRayTrace/scene/Material.h"
 
+#include <array>
+
 namespace osgRayTrace::engine
 {
 
@@ -23,6 +25,26 @@ struct TexturePoint
     Vec3 normal{0.0f, 0.0f, 1.0f};     ///< unit, the normal of the mesh
     Vec3 direction{0.0f, 0.0f, -1.0f}; ///< unit, direction of the ray that hit
     Mat3 eyeFromEngine{1.0f};          ///< rotation into the view's axes; identity for photons
+
+    // The following members are unset unless the material reads such sets: MaterialRecord::uvSets.
+    std::array<Vec2, kUvSets - kFirstMoreUvs> moreUvs;     ///< sets from kFirstMoreUvs on
+    std::array<float, kUvSets - kFirstMoreUvs> moreWidths; ///< widths in them
+
+    Vec2 uvOfSet(uint32_t set) const
+    {
+        return set == 0 ? uv : set == 1 ? uv1 : moreUvs[set - kFirstMoreUvs];
+    }
+    float widthOfSet(uint32_t set) const
+    {
+        return set == 0 ? uvWidth : set == 1 ? uv1Width : moreWidths[set - kFirstMoreUvs];
+    }
+
+    /// Sets the coordinates of a set, and the width there.
+    void setUv(uint32_t set, Vec2 value, float width = 0.0f)
+    {
+        (set == 0 ? uv : set == 1 ? uv1 : moreUvs[set - kFirstMoreUvs]) = value;
+        (set == 0 ? uvWidth : set == 1 ? uv1Width : moreWidths[set - kFirstMoreUvs]) = width;
+    }
 };
 
 inline bool isGenerated(const TextureMapping& mapping)

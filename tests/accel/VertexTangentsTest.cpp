@@ -164,19 +164,19 @@ TEST_CASE("vertex tangents: scenes have them where a material needs them, and go
     builder.scene->textures = {texel};
     builder.add(mesh, mapped);
     without.add(mesh, plain);
-    CHECK(without.build()->vertexTangents(0, false) == nullptr);
+    CHECK(without.build()->vertexTangents(0, 0) == nullptr);
     const auto traced = builder.build();
-    const VertexTangents* made = traced->vertexTangents(0, false);
+    const VertexTangents* made = traced->vertexTangents(0, 0);
     REQUIRE(made);
-    CHECK(traced->vertexTangents(0, true) == nullptr); // there are no such coordinates
+    CHECK(traced->vertexTangents(0, 1) == nullptr); // there are no such coordinates
 
     // Between two vertices the axis is that of the cylinder, where the facet's is that of its
     // middle.
     const Vec3 n = glm::normalize(mesh->normals[0] * 0.75f + mesh->normals[2] * 0.25f);
-    const auto axes = surfaceAxes(*traced, {0, 0, 0.25f, 0.0f}, false, n);
+    const auto axes = surfaceAxes(*traced, {0, 0, 0.25f, 0.0f}, 0, n);
     REQUIRE(axes);
     CHECK(glm::length(axes->tangent - Vec3(-n.y, n.x, 0.0f)) < 1e-5f);
     CHECK(glm::length(axes->bitangent - Vec3(0, 0, 1)) < 1e-5f);
     const auto later = TracedScene::build(builder.scene, std::make_shared<Workers>(), traced);
-    CHECK(later->vertexTangents(0, false) == made);
+    CHECK(later->vertexTangents(0, 0) == made);
 }

@@ -5,6 +5,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
+#include <osgRayTrace/TracedLight>
 
 #include <osg/LightSource>
 #include <osg/ValueObject>
@@ -122,6 +123,38 @@ TEST_CASE("point light: position relative to the origin, attenuation and spot te
     CHECK(countOf(scene.converter.convert(scene.input), "skipped.light") == 1);
 }
 
+TEST_CASE("traced lights: as many as there are, on all that is lit, whatever their numbers",
+          "[bridge]")
+{
+    LitScene scene({1});
+    for (int i = 0; i < 3; ++i)
+    {
+        osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+        source->setLight(new TracedLight);
+        CHECK(source->getStateSet()->getModeList().empty());
+        source->getLight()->setLightNum(i == 2 ? 20000 : 1);
+        source->getLight()->setPosition({float(i), 0.0f, 0.0f, 1.0f});
+        scene.root->addChild(source);
+    }
+    scene.add(1)->setPosition({9.0f, 0.0f, 0.0f, 1.0f});
+    scene.add(2); // no mode has enabled it
+    const ConversionResult result = scene.converter.convert(scene.input);
+    const std::vector<Light>& lights = result.scene->lights;
+    REQUIRE(lights.size() == 4);
+    CHECK(lights[0].number == 1);
+    CHECK(lights[0].position.x == 9.0f);
+    const Material& material = result.scene->materials[0];
+    for (std::size_t i = 1; i < 4; ++i)
+    {
+        CHECK(lights[i].number == kNoLightNumber);
+        CHECK(lights[i].position.x == float(i - 1));
+        CHECK(isLightEnabled(material, lights[i].number));
+    }
+    CHECK_FALSE(isLightEnabled(material, 2));
+    CHECK(countOf(result, "skipped.light") == 0);
+    CHECK(countOf(result, "unused.light-replaced") == 0);
+}
+
 TEST_CASE("absolute light sources and the headlight are in eye space", "[bridge]")
 {
     LitScene scene;
@@ -230,7 +263,7 @@ TEST_CASE("lights of any number shine on what has their mode on", "[bridge]")
         CHECK((isLightEnabled(first, number) && isLightEnabled(second, number)));
     CHECK(isLightEnabled(first, 39));
     CHECK_FALSE(isLightEnabled(second, 39));
-    for (const uint32_t number : {2u, 33u, 999u, 16382u, 16384u, 0xffffffffu})
+    for (const uint32_t number : {2u, 33u, 999u, 16382u, 16384u, kNoLightNumber - 1})
         CHECK_FALSE(isLightEnabled(first, number));
     CHECK(countOf(result, "skipped.light") == 0);
 }

@@ -5,6 +5,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/TracedLight>
 
 #include <functional>
 
@@ -61,6 +62,23 @@ TEST_CASE("live lights: one that a transform moves", "[bridge]")
     watched.edit("moved on", [&] { holder->setMatrix(osg::Matrixd::translate(2.0, 0.0, -2.0)); });
     watched.edit("in its place",
                  [&] { graph.light->getLight()->setPosition(osg::Vec4(0.0f, 0.0f, 3.0f, 1.0f)); });
+}
+
+TEST_CASE("live lights: one that only rays see", "[bridge]")
+{
+    LiveGraph graph;
+    osg::ref_ptr<TracedLight> lamp = new TracedLight;
+    lamp->setPosition(osg::Vec4(2.0f, 0.0f, 2.0f, 1.0f));
+    Watched watched(graph.root.get());
+    watched.edit("added",
+                 [&]
+                 {
+                     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+                     source->setLight(lamp);
+                     graph.root->addChild(source);
+                 });
+    watched.edit("moved", [&] { lamp->setPosition(osg::Vec4(0.0f, 1.0f, 2.0f, 1.0f)); });
+    watched.edit("dimmed", [&] { lamp->setDiffuse(osg::Vec4(0.2f, 0.1f, 0.2f, 1.0f)); });
 }
 
 TEST_CASE("live lights: the places and edges of area lights", "[bridge]")

@@ -111,7 +111,9 @@ Json anyCompressedModel(Dice& dice)
     case 0:
     {
         const DracoStyle style{4 + dice.below(10), !dice.oneIn(3), dice.below(11), dice.oneIn(4)};
-        return dracoModel(grid, worn(dracoBytes(grid, style), dice));
+        model = dracoModel(grid, worn(dracoBytes(grid, style), dice));
+        if (dice.oneIn(3)) model["meshes"][0]["primitives"][0]["mode"] = 5;
+        return model;
     }
 #endif
 #ifdef OSGRAYTRACE_TEST_MESHOPT

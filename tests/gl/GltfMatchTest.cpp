@@ -4,6 +4,8 @@
 #include "StateScenes.h"
 #include "tests/plugins/GltfFiles.h"
 
+#include <osg/LightSource>
+
 #include <cstdlib>
 #include <fstream>
 
@@ -71,8 +73,40 @@ TEST_CASE("match: unlit glTF surfaces, with textures and with colours of vertice
     Json textured = unlitSquareModel();
     addTexture(textured);
     CHECK(matches("gltf-unlit-texture", readModel(textured)));
+    Json third = textured; // the other sets would look up another part of the texture
+    for (const char* set : {"TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3"})
+        attributesOf(third)[set] = attributesOf(textured)["TEXCOORD_0"];
+    attributesOf(third)["TEXCOORD_0"] = attributesOf(third)["TEXCOORD_1"] =
+        addAccessor<float>(third, {0, 0, 0.1f, 0, 0, 0.1f, 0.1f, 0.1f}, kFloat, "VEC2", 4);
+    third["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 3;
+    const osg::ref_ptr<osg::Node> scene = readModel(third);
+    CHECK(geometryOf(*scene).getTexCoordArray(0) == geometryOf(*scene).getTexCoordArray(3));
+    CHECK(matches("gltf-unlit-texture-of-set-3", scene));
     textured["materials"][0]["alphaMode"] = "MASK";
     CHECK(matches("gltf-unlit-mask", readModel(textured)));
+}
+
+TEST_CASE("match: lights beyond OpenGL's give it no errors", "[gl]")
+{
+    Json model = unlitSquareModel();
+    model["materials"][0].erase("extensions");
+    model["scenes"][0]["nodes"] = {0};
+    model["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::parse(R"([{ "type": "point", "intensity": 3 }])");
+    for (int i = 0; i < 12; ++i)
+    {
+        model["scenes"][0]["nodes"].push_back(model["nodes"].size());
+        model["nodes"].push_back({{"translation", {0.5 * i - 3, 1, 2}},
+                                  {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    }
+    const osg::ref_ptr<osg::Node> scene = readModel(model);
+    REQUIRE(findAll<osg::LightSource>(*scene).size() == 12);
+    const Listening listening; // OSG asks for errors at the end of each frame, and tells them
+    TestViewer view(32, 32, scene.get());
+    view.frames(2);
+    INFO(listening.text());
+    CHECK(listening.text().find("OpenGL error") == std::string::npos);
+    CHECK(glGetError() == GL_NO_ERROR);
 }
 
 TEST_CASE("match: sample models, were their materials unlit", "[gl][osg-data]")

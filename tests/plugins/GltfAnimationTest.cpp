@@ -283,3 +283,37 @@ TEST_CASE("gltf: morph targets are added by their weights, which clips change", 
     update(*scene, 0.5);
     checkNear(positionOf(), 2 + 2.5, 0, 1);
 }
+
+TEST_CASE("gltf: weights of morph targets may be below 0, at rest and in clips", "[gltf]")
+{
+    Json model = triangleModel();
+    attributesOf(model)["NORMAL"] =
+        addAccessor<float>(model, {0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
+    const int moves = addAccessor<float>(model, {0, 0, 0, 0, 0, 2, 0, 0, 0}, kFloat, "VEC3", 3);
+    const int turns = addAccessor<float>(model, {0, 0, 0, 1, 0, 0, 0, 0, 0}, kFloat, "VEC3", 3);
+    model["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", moves}, {"NORMAL", turns}}};
+    model["meshes"][0]["weights"] = {-0.5};
+    auto scene = sceneOf(model);
+    const auto positionOf = [&scene]() -> osg::Vec3d
+    { return arrayOf<osg::Vec3Array>(geometryOf(*scene).getVertexArray())[1]; };
+    const auto normalOf = [&scene]() -> osg::Vec3d
+    { return arrayOf<osg::Vec3Array>(geometryOf(*scene).getNormalArray())[1]; };
+    checkNear(positionOf(), 2, 0, -1);
+    const double length = std::sqrt(1.25);
+    checkNear(normalOf(), -0.5 / length, 0, 1 / length);
+
+    animate(model, "weights", "LINEAR", {0, 1}, {1, -1}, "SCALAR");
+    scene = sceneOf(model);
+    update(*scene, 0.25);
+    checkNear(positionOf(), 2, 0, 1);
+    update(*scene, 0.75);
+    checkNear(positionOf(), 2, 0, -1);
+
+    // A spline whose keys are 0 swings below: at 1/4 by its tangent -1, t (1 - t)^2 of it.
+    model["animations"] = Json::array();
+    animate(model, "weights", "CUBICSPLINE", {0, 1}, {0, 0, -1, 0, 0, 0}, "SCALAR");
+    model["meshes"][0]["weights"] = {0};
+    scene = sceneOf(model);
+    update(*scene, 0.25);
+    checkNear(positionOf(), 2, 0, -2 * 0.25 * 0.75 * 0.75);
+}

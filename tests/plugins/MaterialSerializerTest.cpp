@@ -60,7 +60,7 @@ TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugin
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
         material->setTexture(use, texture(static_cast<unsigned char>(10 + i)));
         PhysicalMaterial::TexturePlace place;
-        place.unit = i % 2;
+        place.unit = i % 8;
         place.offset.set(0.1f * i, -0.2f);
         place.rotation = 0.3f;
         place.scale.set(2.0f, 1.0f / 3.0f);

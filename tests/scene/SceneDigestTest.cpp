@@ -114,6 +114,11 @@ std::vector<Edit> edits()
         ofMesh([](Mesh& m) { m.rs1 = std::vector<float>(3, 0.5f); }),
         ofMesh([](Mesh& m) { m.colors = std::vector<Vec4>(3, Vec4(0.5f)); }),
         ofMesh([](Mesh& m) { m.tangents = std::vector<Vec4>(3, Vec4(0.5f)); }),
+        ofMesh([](Mesh& m) { m.moreUvs = {std::vector<Vec2>(3, Vec2(0.5f))}; }),
+        ofMesh(
+            [](Mesh& m) {
+                m.moreUvs = {{}, std::vector<Vec2>(3, Vec2(0.5f))};
+            }),
         ofMaterial([](Material& m) { m.model = MaterialModel::Physical; }),
         ofMaterial([](Material& m) { m.ambient.x = 0.7f; }),
         ofMaterial([](Material& m) { m.diffuse.x = 0.7f; }),

@@ -201,7 +201,8 @@ void addLight(Hasher& hasher, const osg::Light& light)
     hasher.add(light.getLightNum(), light.getAmbient(), light.getDiffuse(), light.getSpecular(),
                light.getPosition(), light.getDirection(), light.getConstantAttenuation(),
                light.getLinearAttenuation(), light.getQuadraticAttenuation(),
-               light.getSpotExponent(), light.getSpotCutoff(), rangeOf(light));
+               light.getSpotExponent(), light.getSpotCutoff(), rangeOf(light),
+               isTracedLight(light));
 }
 
 void addTexGen(Hasher& hasher, const osg::TexGen& texGen)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 
+#include <osgRayTrace/TracedLight>
+
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderStage>
 #include <osgUtil/StateGraph>
@@ -31,7 +33,9 @@ PositionedLight firstLight(osgUtil::PositionalStateContainer& container, const o
     for (const auto& [attribute, matrix] : container.getAttrMatrixList())
     {
         const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
-        if (!light || (found.light && light->getLightNum() != found.light->getLightNum())) continue;
+        if (!light || dynamic_cast<const TracedLight*>(light) ||
+            (found.light && light->getLightNum() != found.light->getLightNum()))
+            continue;
         found = {light, matrix ? *matrix * toEye : toEye};
     }
     return found;

@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/convert/InstanceOrder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
@@ -99,6 +100,9 @@ MeshRequest SceneBuilder::requestFor(const CollectedGeometry& geometry,
     request.pointRadius = geometry.pointRadius;
     if (!transform.isIdentity()) request.transform = transform;
     request.decodeColors = _rules.linear;
+    if (geometry.geometry->getNumTexCoordArrays() > kFirstMoreUvs)
+        for (const GeometryUse& use : geometry.uses)
+            request.uvSets |= moreUvSetsOf(_graph.states[use.state]);
     return request;
 }
 
@@ -300,6 +304,7 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
     if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
         return false;
+    if (moreUvSetsOf(_graph.states[use.state]) & ~request->uvSets) return false;
     osg::Matrixd localFromMesh;
     if (request->transform) localFromMesh = osg::Matrixd::inverse(*request->transform);
     const uint32_t other = traced.uses.front().instance;

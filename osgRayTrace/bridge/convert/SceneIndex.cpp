@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
@@ -21,7 +22,7 @@ bool StateEffects::operator==(const StateEffects& other) const
     const auto values = [](const StateEffects& t)
     {
         return std::tie(t.rasterized, t.restart, t.depthBias, t.physical, t.setsColor, t.clipPlanes,
-                        t.hasAmbient, t.ambient, t.counts);
+                        t.hasAmbient, t.ambient, t.uvSets, t.counts);
     };
     return values(*this) == values(other);
 }
@@ -33,6 +34,7 @@ StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& tex
     effects.restart = restartOf(state).key();
     effects.depthBias = depthBias(state);
     effects.physical = state.attributes[kPhysicalMaterialSlot] != nullptr;
+    effects.uvSets = moreUvSetsOf(state);
     effects.setsColor = setsCurrentColor(state);
     effects.clipPlanes = clipPlanesOn(state);
     const auto* model = state.attribute<osg::LightModel>(kLightModelSlot);

@@ -24,6 +24,7 @@ struct StateEffects
     uint64_t restart = 0;
     float depthBias = 0.0f;
     bool physical = false;
+    unsigned int uvSets = 0; ///< see MeshRequest
     bool setsColor = false;  ///< see setsCurrentColor
     uint64_t clipPlanes = 0; ///< planes that are on, see clipPlanesOn
     bool hasAmbient = false; ///< true: the state has a light model of its own, lit

@@ -81,18 +81,21 @@ void countReplaced(const NumberedLight& light, ConversionReport& report)
 }
 
 /// Adds lights as OpenGL keeps them: by number, the last one set stays, and a light that no surface
-/// has enabled does nothing. The viewer's light is set before those of the graph.
+/// has enabled does nothing. The viewer's light is set before those of the graph, and behind them
+/// come the lights that OpenGL does not get, which all stay.
 void addNumbered(Scene& scene, const ConversionInput& input,
                  const std::vector<CollectedLight>& sources, ConversionReport& report)
 {
     std::map<int, NumberedLight> lights;
+    std::vector<Light> tracedLights;
     std::map<std::string, float> unused = input.lightSizes.byName;
     const auto add = [&](const osg::Light& source, const osg::Matrixd& matrix, bool eyeSpace,
                          const std::string& path, bool ofGraph)
     {
         const int number = source.getLightNum();
         auto light = convertLight(source, matrix, eyeSpace, scene.unit);
-        if (!light || number < 0 || number >= kLightNumbers)
+        const bool numbered = !isTracedLight(source);
+        if (!light || (numbered && (number < 0 || number >= kLightNumbers)))
         {
             report.warn("skipped.light", "light '" + path + "'",
                         light ? "number is not 0 to " + std::to_string(kLightNumbers - 1) +
@@ -103,6 +106,11 @@ void addNumbered(Scene& scene, const ConversionInput& input,
         const std::string sizedAs = applyLightSize(input.lightSizes, path, scene.unit, *light);
         if (!sizedAs.empty()) unused.erase(sizedAs);
         if (light->name.empty()) light->name = path;
+        if (!numbered)
+        {
+            tracedLights.push_back(*std::move(light));
+            return;
+        }
         const auto before = lights.find(number);
         if (before != lights.end()) countReplaced(before->second, report);
         lights.insert_or_assign(number, NumberedLight{*std::move(light), path, ofGraph});
@@ -132,6 +140,8 @@ void addNumbered(Scene& scene, const ConversionInput& input,
         scene.lights.push_back(std::move(numbered.light));
         if (!numbered.ofGraph) report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
     }
+    for (Light& light : tracedLights)
+        scene.lights.push_back(std::move(light));
 }
 
 /// Returns a light that stands for environments that cannot be converted, so that nobody takes

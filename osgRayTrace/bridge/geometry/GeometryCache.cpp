@@ -26,7 +26,8 @@ enum : std::size_t
     kUvs,
     kUvs1,
     kTangents,
-    kPrimitives, ///< the primitive sets begin here
+    kPrimitives, ///< the primitive sets begin here, and then come texture coordinates of other
+                 ///< units
 };
 
 /// Shares the triangle array of equal meshes, because a BVH that can be refitted is known by it.
@@ -113,6 +114,10 @@ GeometryCache::GeometrySignature GeometryCache::signatureOf(const osg::Geometry&
         if (hasTriangles(*set)) bufferSignature.count = set->getNumIndices();
         bufferSignature.ranges = rangesHash(*set);
     }
+    const unsigned int units = std::min(geometry.getNumTexCoordArrays(), kUvSets);
+    for (unsigned int unit = kFirstMoreUvs; unit < units; ++unit)
+        add(geometry.getTexCoordArray(unit),
+            static_cast<unsigned int>(osg::getBinding(geometry.getTexCoordArray(unit))));
     return signature;
 }
 
@@ -176,6 +181,7 @@ KeptArrays GeometryCache::keptArrays(Entry& before, GeometrySignature& now)
     if (!before.counts.empty() || then.size() != now.size()) return kept;
     for (std::size_t i = kPrimitives; i < then.size(); ++i)
         if (!isSame(then[i], now[i])) return kept;
+    kept.moreUvs = before.mesh->moreUvs;
     if (isSame(then[kNormals], now[kNormals])) kept.normals = before.mesh->normals;
     if (isSame(then[kColors], now[kColors])) kept.colors = before.mesh->colors;
     if (isSame(then[kUvs], now[kUvs]))

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/geometry/HostArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshClipper.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/bridge/geometry/MovedTangents.h"
 #include "osgRayTrace/bridge/geometry/PointSolids.h"
 #include "osgRayTrace/bridge/geometry/VertexArrays.h"
 
@@ -331,9 +332,17 @@ void readTriangles(TriangleList& list, const osg::Geometry& geometry, const osg:
                         : reader.textureCoordinates(geometry.getTexCoordArray(1), counts);
     mesh.rs = fits(kept.rs) ? kept.rs : reader.thirdCoordinates(geometry.getTexCoordArray(0));
     mesh.rs1 = fits(kept.rs1) ? kept.rs1 : reader.thirdCoordinates(geometry.getTexCoordArray(1));
+    for (uint32_t set = kFirstMoreUvs; request.uvSets >> set != 0; ++set)
+    {
+        SharedArray<Vec2>& uvs = mesh.moreUvs.emplace_back();
+        if (!(request.uvSets >> set & 1u)) continue;
+        const std::size_t i = set - kFirstMoreUvs;
+        uvs = i < kept.moreUvs.size() && fits(kept.moreUvs[i])
+                  ? kept.moreUvs[i]
+                  : reader.textureCoordinates(geometry.getTexCoordArray(set), counts);
+    }
     mesh.colors = fits(kept.colors) ? kept.colors : reader.colors(geometry.getColorArray(), counts);
-    // Nobody turns the tangents of a geometry that deforms: it gets new ones (VertexTangents.h).
-    if (!request.copies) mesh.tangents = reader.tangents(tangentArray(geometry));
+    mesh.tangents = reader.tangents(tangentsNow(geometry, request.copies).get());
 }
 
 } // namespace

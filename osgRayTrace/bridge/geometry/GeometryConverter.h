@@ -33,6 +33,7 @@ struct KeptArrays
     SharedArray<Vec2> uvs;
     SharedArray<Vec2> uvs1;
     SharedArray<float> rs, rs1;
+    std::vector<SharedArray<Vec2>> moreUvs;
     SharedArray<Vec4> colors;
 };
 

@@ -19,6 +19,7 @@ struct Vertices
     std::vector<Vec2> uvs, uvs1;
     std::vector<float> rs, rs1;
     std::vector<Vec4> colors, tangents;
+    std::vector<std::vector<Vec2>> moreUvs;
 };
 
 template <class T> std::vector<T> copyOf(const SharedArray<T>& values)
@@ -121,6 +122,8 @@ private:
         appendBetween(_vertices.rs1, a, b, t);
         appendBetween(_vertices.colors, a, b, t);
         appendBetween(_vertices.tangents, a, b, t);
+        for (std::vector<Vec2>& uvs : _vertices.moreUvs)
+            appendBetween(uvs, a, b, t);
         return next;
     }
 
@@ -133,9 +136,11 @@ private:
 
 void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
 {
-    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals), copyOf(mesh.uvs),
-                      copyOf(mesh.uvs1),      copyOf(mesh.rs),      copyOf(mesh.rs1),
-                      copyOf(mesh.colors),    copyOf(mesh.tangents)};
+    Vertices vertices{copyOf(mesh.positions), copyOf(mesh.normals),  copyOf(mesh.uvs),
+                      copyOf(mesh.uvs1),      copyOf(mesh.rs),       copyOf(mesh.rs1),
+                      copyOf(mesh.colors),    copyOf(mesh.tangents), {}};
+    for (const SharedArray<Vec2>& uvs : mesh.moreUvs)
+        vertices.moreUvs.push_back(copyOf(uvs));
     std::vector<UVec3> triangles = copyOf(mesh.triangles);
     for (const Vec4d& plane : planes)
         triangles = PlaneCut(plane, vertices).keptOf(triangles);
@@ -150,6 +155,8 @@ void clip(Mesh& mesh, const std::vector<Vec4d>& planes)
     mesh.rs1 = std::move(vertices.rs1);
     mesh.colors = std::move(vertices.colors);
     mesh.tangents = std::move(vertices.tangents);
+    for (std::size_t i = 0; i < mesh.moreUvs.size(); ++i)
+        mesh.moreUvs[i] = std::move(vertices.moreUvs[i]);
     mesh.triangles = std::move(triangles);
 }
 

@@ -25,6 +25,7 @@ struct MeshRequest
     float depthBias = 0.0f;    ///< number of layers by which the faces are raised: see depthBias
     bool copies = false;       ///< true: no arrays are shared, as they will change
     PrimitiveRestart restart;
+    unsigned int uvSets = 0;       ///< bit n: texture unit n is read, from kFirstMoreUvs on
     float pointRadius = 0.0f;      ///< radius of points and lines, see PointSolids.h; 0: left out
     std::vector<Vec4d> clipPlanes; ///< planes that cut after the transform; see clip
 
@@ -32,7 +33,8 @@ struct MeshRequest
     {
         return transform == other.transform && decodeColors == other.decodeColors &&
                depthBias == other.depthBias && copies == other.copies && restart == other.restart &&
-               pointRadius == other.pointRadius && clipPlanes == other.clipPlanes;
+               uvSets == other.uvSets && pointRadius == other.pointRadius &&
+               clipPlanes == other.clipPlanes;
     }
 };
 

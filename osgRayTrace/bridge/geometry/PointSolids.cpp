@@ -159,6 +159,8 @@ void makeFlat(Mesh& mesh)
     };
     spread(mesh.uvs);
     spread(mesh.uvs1);
+    for (SharedArray<Vec2>& uvs : mesh.moreUvs)
+        spread(uvs);
     spread(mesh.rs);
     spread(mesh.rs1);
     spread(mesh.colors);
@@ -256,6 +258,15 @@ void appendSolids(const std::vector<PointOrLine>& solids, const osg::Geometry& g
     mesh.uvs1 =
         joined(mesh.uvs1, before, reader.textureCoordinates(geometry.getTexCoordArray(1), counts),
                endOf, Vec2(0.0f));
+    for (uint32_t set = kFirstMoreUvs; request.uvSets >> set != 0; ++set)
+    {
+        const std::size_t i = set - kFirstMoreUvs;
+        if (i >= mesh.moreUvs.size()) mesh.moreUvs.emplace_back();
+        if (!(request.uvSets >> set & 1u)) continue;
+        mesh.moreUvs[i] = joined(mesh.moreUvs[i], before,
+                                 reader.textureCoordinates(geometry.getTexCoordArray(set), counts),
+                                 endOf, Vec2(0.0f));
+    }
     mesh.rs =
         joined(mesh.rs, before, reader.thirdCoordinates(geometry.getTexCoordArray(0)), endOf, 0.0f);
     mesh.rs1 = joined(mesh.rs1, before, reader.thirdCoordinates(geometry.getTexCoordArray(1)),

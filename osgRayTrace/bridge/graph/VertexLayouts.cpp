@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 
+#include <algorithm>
 #include <iterator>
 
 namespace osgRayTrace::engine
@@ -57,7 +58,8 @@ const osg::Geometry& VertexLayouts::laidOut(const osg::Geometry& geometry,
     result.setNormalArray(normals);
     result.setColorArray(const_cast<osg::Array*>(geometry.getColorArray()));
     result.setTexCoordArray(0, coordinates);
-    result.setTexCoordArray(1, const_cast<osg::Array*>(geometry.getTexCoordArray(1)));
+    for (unsigned int i = 1; i < std::max(geometry.getNumTexCoordArrays(), 2u); ++i)
+        result.setTexCoordArray(i, const_cast<osg::Array*>(geometry.getTexCoordArray(i)));
     if (!positions) // attribute 0 holds the positions then
         result.setVertexAttribArray(0, const_cast<osg::Array*>(geometry.getVertexAttribArray(0)));
     if (const osg::Array* tangents = tangentArray(geometry))

@@ -102,9 +102,10 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf,
     if (!(cosThetaL > 0.0f) || !(pdfW > 0.0f) || !(pdfW < 1e30f)) return false;
     const float clear = std::max(begin.tNear, distance - sample->offset / cosThetaL);
     setRay(samples.shadow, i, begin, wi, clear);
-    const Instance& instance = context.traced->scene().instances[(*context.lights)[light].instance];
+    const Scene& scene = context.traced->scene();
+    const Instance& instance = scene.instances[(*context.lights)[light].instance];
     MaterialPoint point;
-    point.uv = sample->uv;
+    point.setUv(emissionUvSet(scene.materials[instance.material]), sample->uv);
     const Vec3 radiance = context.traced->materials().emission(instance.material, point);
     setSample(samples, i, wi, radiance, 1.0f / (pmf * pdfW));
     return true;

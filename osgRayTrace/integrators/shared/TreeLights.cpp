@@ -124,12 +124,15 @@ void setTexturedRadiance(const PassContext& context, const LightEmitter& emitter
     const bool folded = u + v > 1.0f;
     const float b = folded ? 1.0f - u : u, c = folded ? 1.0f - v : v;
     MaterialPoint point;
-    if (!mesh.uvs.empty())
+    const uint32_t set = emissionUvSet(scene.materials[instance.material]);
+    const SharedArray<Vec2>& uvs = uvsOfSet(mesh, set);
+    Vec2 uv(0.0f);
+    if (!uvs.empty())
     {
         const UVec3& t = mesh.triangles[emitter.primitive];
-        point.uv = mesh.uvs[t.x] + b * (mesh.uvs[t.y] - mesh.uvs[t.x]) +
-                   c * (mesh.uvs[t.z] - mesh.uvs[t.x]);
+        uv = uvs[t.x] + b * (uvs[t.y] - uvs[t.x]) + c * (uvs[t.z] - uvs[t.x]);
     }
+    point.setUv(set, uv);
     const Vec3 radiance = context.traced->materials().emission(instance.material, point);
     for (int k = 0; k < 3; ++k)
         samples.radiance[k][i] = radiance[k];

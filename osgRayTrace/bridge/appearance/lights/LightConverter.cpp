@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 
+#include "osgRayTrace/scene/Material.h"
+
 #include <osgRayTrace/AreaLight>
+#include <osgRayTrace/TracedLight>
 
 #include <osg/ValueObject>
 #include <osg/Vec3d>
@@ -62,12 +65,18 @@ float rangeOf(const osg::Light& light)
     return std::isfinite(range) && range > 0.0f ? range : 0.0f;
 }
 
+bool isTracedLight(const osg::Light& light)
+{
+    return dynamic_cast<const TracedLight*>(&light) != nullptr;
+}
+
 std::optional<Light> convertLight(const osg::Light& source, const osg::Matrixd& engineFromLocal,
                                   bool eyeSpace, double unit)
 {
     Light light;
     light.name = source.getName();
-    light.number = static_cast<uint32_t>(source.getLightNum());
+    light.number =
+        isTracedLight(source) ? kNoLightNumber : static_cast<uint32_t>(source.getLightNum());
     light.eyeSpace = eyeSpace;
     light.ambient = rgb(source.getAmbient());
     light.diffuse = rgb(source.getDiffuse());

@@ -23,6 +23,9 @@ namespace osgRayTrace::engine
 /// 0: none.
 float rangeOf(const osg::Light& light);
 
+/// Returns whether a light is a TracedLight, whose number means nothing.
+bool isTracedLight(const osg::Light& light);
+
 /// Converts a directional or point light with OpenGL's meaning of each value. The matrix places the
 /// light in engine space, or is the identity for a light in eye space; unit is Scene::unit. Returns
 /// nothing if a value is not finite.

@@ -109,6 +109,19 @@ void setParameters(const PhysicalMaterial& source, const SurfaceInputs& inputs, 
 
 } // namespace
 
+unsigned int moreUvSetsOf(const GraphState& state)
+{
+    const auto* source = state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot);
+    if (!source) return 0;
+    unsigned int sets = 0;
+    for (uint32_t role = 0; role < kTextureRoles; ++role)
+        // The axes of anisotropy are those of its place, with a texture or without.
+        if (source->getTexture(useOf(role)) ||
+            (role == kAnisotropyRole && source->getAnisotropy() > 0.0f))
+            sets |= 1u << source->getTexturePlace(useOf(role)).unit;
+    return sets >> kFirstMoreUvs << kFirstMoreUvs;
+}
+
 Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& inputs,
                           TextureConverter& textures, ConversionReport& report)
 {
@@ -120,9 +133,8 @@ Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& i
     {
         const osg::Texture2D* texture = source.getTexture(useOf(role));
         detail.places[role] = placeOf(source.getTexturePlace(useOf(role)));
-        const bool hasCoordinates = detail.places[role].set == 0 ? inputs.hasTextureCoordinates
-                                                                 : inputs.hasSecondCoordinates;
-        if (hasCoordinates) return textures.index(texture, contentOf(role), report);
+        if (inputs.uvSets >> detail.places[role].set & 1u)
+            return textures.index(texture, contentOf(role), report);
         lacksCoordinates |= texture != nullptr;
         return kInvalid;
     };
@@ -134,9 +146,7 @@ Material physicalMaterial(const PhysicalMaterial& source, const SurfaceInputs& i
     for (uint32_t role = kNormalRole; role < kTextureRoles; ++role)
         detail.textures[role] = convert(role);
     if (detail.anisotropy > 0.0f && !inputs.hasTangents &&
-        !(source.getTexturePlace(PhysicalMaterial::ANISOTROPY_TEXTURE).unit == 0
-              ? inputs.hasTextureCoordinates
-              : inputs.hasSecondCoordinates))
+        !(inputs.uvSets >> detail.places[kAnisotropyRole].set & 1u))
     {
         detail.anisotropy = 0.0f; // there is no direction
         lacksCoordinates = true;

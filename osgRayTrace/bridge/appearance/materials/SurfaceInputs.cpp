@@ -6,6 +6,9 @@
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/PointSolids.h"
 
+#include "osgRayTrace/scene/TextureMapping.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -15,8 +18,9 @@ SurfaceInputs surfaceInputs(const osg::Geometry& geometry, float pointRadius)
 {
     SurfaceInputs inputs;
     inputs.isOfSolids = hasSolidsAlone(geometry, pointRadius);
-    inputs.hasTextureCoordinates = isReadable(geometry.getTexCoordArray(0));
-    inputs.hasSecondCoordinates = isReadable(geometry.getTexCoordArray(1));
+    const unsigned int units = std::min(geometry.getNumTexCoordArrays(), kUvSets);
+    for (unsigned int unit = 0; unit < units; ++unit)
+        inputs.uvSets |= isReadable(geometry.getTexCoordArray(unit)) ? 1u << unit : 0u;
     inputs.hasTangents = tangentArray(geometry) != nullptr;
     const osg::Array* colors = geometry.getColorArray();
     const osg::Array::Binding binding = bindingOf(colors);
