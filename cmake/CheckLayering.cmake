@@ -1,6 +1,6 @@
 # Checks that each include points to its own layer or to one left of it, and these rules:
-#   base < sampling < film < scene < shading < accel < photons < integrators < session < bridge < API
-#        < offscreen < osgPlugins < apps
+#   base < sampling < film < scene < shading < accel < photons < integrators < session < servers
+#        < bridge < API < offscreen < osgPlugins < apps
 #   - inside three layers, folders have an order, too; "" stands for files of the layer itself:
 #       bridge: common < geometry < appearance/textures < appearance/lights < appearance/materials
 #               < graph < changes < pick < convert < update < view
@@ -11,15 +11,16 @@
 #   - base/Parallel.cpp alone includes TBB, session/denoise/DenoiseOidn.cpp alone includes Open Image
 #     Denoise
 #   - apps/group/MpiGroup.cpp alone includes MPI
-#   - base to session include neither OpenSceneGraph nor OpenGL
+#   - osgRayTrace/servers/zmq and apps/osgraytrace-server/ZmqPort.cpp alone include ZeroMQ
+#   - base to servers include neither OpenSceneGraph nor OpenGL
 #   - DisplayTexture and offscreen alone call OpenGL
 #   - a public header includes only public headers, OpenSceneGraph and the C++ library
 # Usage: cmake -D ROOT=<source folder> -P CheckLayering.cmake. The script fails with one line for each offence.
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
-set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
-set(ENGINE base sampling film scene shading accel photons integrators session)
+set(LAYERS base sampling film scene shading accel photons integrators session servers bridge API offscreen osgPlugins apps)
+set(ENGINE base sampling film scene shading accel photons integrators session servers)
 # The folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
     graph changes pick convert update)
@@ -107,6 +108,9 @@ macro(check_include file layer include)
     endif()
     if(include MATCHES "^mpi\\.h$" AND NOT file STREQUAL "apps/group/MpiGroup.cpp")
         report("${file}" "includes MPI (${include}); apps/group/MpiGroup.cpp alone may")
+    endif()
+    if(include MATCHES "^zmq\\.h" AND NOT file MATCHES "^(osgRayTrace/servers/zmq/|apps/osgraytrace-server/ZmqPort\\.cpp$)")
+        report("${file}" "includes ZeroMQ (${include}); servers/zmq and ZmqPort.cpp alone may")
     endif()
     if((include MATCHES "^draco/" AND NOT file MATCHES "^osgPlugins/gltf/Draco(Mesh|Bounds)\\.(h|cpp)$")
        OR (include MATCHES "^meshoptimizer" AND NOT file STREQUAL "osgPlugins/gltf/MeshoptView.cpp")

@@ -68,6 +68,12 @@ program ray traces (osgviewer cow.osgt.raytrace) and reads glTF, EXR and HDR.")
 osgraytrace_package(docs osgraytrace-doc doc ""
     "Ray tracing node kit for OpenSceneGraph (documents)" "${libraryText}
 This package has the documents, examples and scenes.")
+if(OSGRAYTRACE_HAS_ZMQ)
+    osgraytrace_package(servers osgraytrace-servers graphics "osgRayTrace"
+        "Ray tracer for OpenSceneGraph models (render servers)" "${libraryText}
+This package has osgraytrace-server, which traces tiles of viewers' images on
+other machines, and the module by which viewers reach such servers.")
+endif()
 if(OSGRAYTRACE_HAS_PYTHON)
     osgraytrace_package(python python3-osgraytrace python "osgRayTrace"
         "Ray tracer for OpenSceneGraph models (Python 3)" "${libraryText}

@@ -43,4 +43,24 @@ else()
     message(STATUS "MPI: left out, off or not found (OSGRAYTRACE_MPI)")
 endif()
 
+# ZeroMQ is optional (OSGRAYTRACE_HAS_ZMQ): a module that the library loads for the setting servers, and
+# osgraytrace-server, are linked to it.
+set(OSGRAYTRACE_HAS_ZMQ FALSE)
+if(OSGRAYTRACE_ZMQ)
+    find_path(OSGRAYTRACE_ZMQ_INCLUDE zmq.h)
+    find_library(OSGRAYTRACE_ZMQ_LIBRARY zmq)
+    mark_as_advanced(OSGRAYTRACE_ZMQ_INCLUDE OSGRAYTRACE_ZMQ_LIBRARY)
+    if(OSGRAYTRACE_ZMQ_INCLUDE AND OSGRAYTRACE_ZMQ_LIBRARY)
+        set(OSGRAYTRACE_HAS_ZMQ TRUE)
+        add_library(osgRayTrace::Zmq UNKNOWN IMPORTED GLOBAL)
+        set_target_properties(osgRayTrace::Zmq PROPERTIES IMPORTED_LOCATION "${OSGRAYTRACE_ZMQ_LIBRARY}"
+            INTERFACE_INCLUDE_DIRECTORIES "${OSGRAYTRACE_ZMQ_INCLUDE}")
+    endif()
+endif()
+if(OSGRAYTRACE_HAS_ZMQ)
+    message(STATUS "ZeroMQ: render servers are built")
+else()
+    message(STATUS "ZeroMQ: render servers are left out, off or not found (OSGRAYTRACE_ZMQ)")
+endif()
+
 include(OsgRayTraceGltfLibraries)

@@ -9,7 +9,7 @@ ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
-          libdraco-dev libmeshoptimizer-dev libwebp-dev libopenmpi-dev openmpi-bin
+          libdraco-dev libmeshoptimizer-dev libwebp-dev libopenmpi-dev openmpi-bin libzmq3-dev
           pybind11-dev python3-dev python3-numpy
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
           gnuplot-nox clang-format-14 doxygen graphviz)

@@ -61,8 +61,8 @@ for preset in "$@"; do
         check asan -L 'unit|gl|fuzz'
         ;;
     tsan)
-        build tsan baseTest groupTest sessionTest displayTest viewsTest backgroundTracerTest backgroundTest
-        check tsan -R '^(base|group|session|display|views|backgroundTracer|background)Test$'
+        build tsan baseTest groupTest serversTest sessionTest displayTest viewsTest backgroundTracerTest backgroundTest
+        check tsan -R '^(base|group|servers|session|display|views|backgroundTracer|background)Test$'
         ;;
     esac
 done

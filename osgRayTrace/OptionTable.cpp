@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
+#include "osgRayTrace/servers/ServerAddresses.h"
 
 #include <algorithm>
 
@@ -137,6 +138,11 @@ bool areLightSizes(const std::string& text)
     return engine::parseLightSizes(text).has_value();
 }
 
+bool areServers(const std::string& text)
+{
+    return engine::parseServers(text).has_value();
+}
+
 const std::vector<OptionRow>& optionTable()
 {
     using S = RayTraceSettings;
@@ -214,6 +220,8 @@ const std::vector<OptionRow>& optionTable()
                   "built in"),
         textRow("materials", "none|FILE", &S::getMaterials, &S::setMaterials, isAnything,
                 "JSON file of physical materials by names in the model"),
+        textRow("servers", "none|tcp://HOST:7411", &S::getServers, &S::setServers, areServers,
+                "Render servers that trace tiles of viewers' images, with commas between them"),
         choiceRow("debug-channel", kDebugChannelWords, &S::getDebugChannel, &S::setDebugChannel,
                   "What the debug integrator shows"),
     });

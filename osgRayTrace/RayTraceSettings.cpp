@@ -270,6 +270,14 @@ void RayTraceSettings::setMaterials(const std::string& value)
     change(_values.materials, value.empty() ? std::string("none") : value, _modifiedCount);
 }
 
+void RayTraceSettings::setServers(const std::string& value)
+{
+    if (!areServers(value))
+        warnOnce("servers '" + value + "' are not tcp://HOST:PORT,...; ignored");
+    else
+        change(_values.servers, value.empty() ? std::string("none") : value, _modifiedCount);
+}
+
 void RayTraceSettings::setMaterialHook(MaterialHook* hook)
 {
     change(_materialHook, osg::ref_ptr<MaterialHook>(hook), _modifiedCount);

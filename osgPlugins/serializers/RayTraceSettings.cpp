@@ -17,6 +17,9 @@
 // readable, and the environment of the reader changes nothing that the writer had set. Names and
 // values are single words: characters of values that may not be in a word are written as %20.
 
+// A file does not say to whom whoever reads it sends scenes.
+static const char* const kServers = "servers";
+
 static bool isPlain(char c)
 {
     const bool alphanumeric =
@@ -64,6 +67,13 @@ static bool readOptions(osgDB::InputStream& is, osgRayTrace::RayTraceSettings& s
         std::string name;
         std::string value;
         is >> name >> value;
+        if (name == kServers)
+        {
+            OSG_WARN << "osgRayTrace: a file names render servers; ignored, the viewer decides "
+                        "where its scenes go"
+                     << std::endl;
+            continue;
+        }
         if (is.getException() || settings.set(name, valueOf(value))) continue;
         OSG_WARN << "osgRayTrace: a file sets " << name << " to '" << value
                  << "', which this version does not know; ignored" << std::endl;
@@ -75,10 +85,11 @@ static bool readOptions(osgDB::InputStream& is, osgRayTrace::RayTraceSettings& s
 static bool writeOptions(osgDB::OutputStream& os, const osgRayTrace::RayTraceSettings& settings)
 {
     const auto options = osgRayTrace::RayTraceSettings::options();
-    os.writeSize(options.size());
+    os.writeSize(options.size() - 1); // all but the servers
     os << os.BEGIN_BRACKET << std::endl;
     for (const auto& option : options)
     {
+        if (option.name == kServers) continue;
         os << option.name << wordOf(settings.get(option.name)) << std::endl;
     }
     os << os.END_BRACKET << std::endl;

@@ -190,6 +190,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
     const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
+    _cellSize = cell;
     if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;

@@ -93,6 +93,10 @@ public:
     float radius() const { return _largest * _shrink; }
     PhotonNote note() const;
     const PhotonPass* photons() const { return _pass.get(); }
+    const std::shared_ptr<const PhotonPass>& sharedPhotons() const { return _pass; }
+    float cellSize() const { return _cellSize; } ///< of the map of the pass at work [length]
+    /// Returns how many bins of PhotonGuide the pass at work learns from; 0: it does not learn.
+    std::size_t guideBins() const { return _seen.empty() ? 0 : _seenSquares.size(); }
     /// Returns the bytes of photon maps, for all views.
     std::size_t keptBytes() const { return _passes->bytes(); }
     std::size_t viewBytes() const; ///< bytes of hit points, radii and statistics of the pixels
@@ -111,7 +115,8 @@ private:
     float _least = 0.0f; ///< least first radius; 0: not chosen yet
     float _largest = 0.0f;
     float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
-    float _shrink = 1.0f;     ///< radius of the pass at work over the first one, global schedule
+    float _cellSize = 0.0f;
+    float _shrink = 1.0f; ///< radius of the pass at work over the first one, global schedule
     bool _local = false;
     /// True: the photons are for caustics, but nothing makes caustics, so all paths are traced from
     /// the eye.

@@ -47,6 +47,12 @@ void RenderSession::setOptions(const RenderOptions& options)
     _state->options = options;
 }
 
+void RenderSession::setHelp(std::shared_ptr<TileHelp> help)
+{
+    const ThreadSeam::Entry inside(_state->seam);
+    _state->help = std::move(help);
+}
+
 void RenderSession::setKeepsSurfaces(bool keeps)
 {
     const ThreadSeam::Entry inside(_state->seam);

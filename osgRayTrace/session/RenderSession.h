@@ -31,6 +31,7 @@ class TracedScene; // accel: a Scene with its Embree structures
 class Workers;     // base: the threads that a render may use
 
 class PhotonPasses;
+class TileHelp;      // those who trace tiles elsewhere
 struct SessionState; // the image, and what it is of
 
 /// The progressive image of one view. A session is not thread safe but for cancel(); different
@@ -51,6 +52,10 @@ public:
     void setScene(std::shared_ptr<const TracedScene> scene);
     void setView(const View& view);
     void setOptions(const RenderOptions& options);
+
+    /// Sets who traces tiles of the passes that are added from now on, beside this session's
+    /// threads; null: nobody does. Images are the same bit by bit.
+    void setHelp(std::shared_ptr<TileHelp> help);
 
     /// Sets whether the images that are begun from now on keep what their first samples meet:
     /// surfaces().

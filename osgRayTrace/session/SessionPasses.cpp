@@ -147,28 +147,90 @@ bool SessionState::renderPass(const PassContext& context, const Integrator& inte
     const std::vector<std::size_t> queue = partial && before == 0 && rule.firstTiles
                                                ? firstPassOrder(order, *rule.firstTiles)
                                                : std::vector<std::size_t>();
-    const auto renderOne = [&](std::size_t index)
+    const std::size_t places = partial && queue.empty() ? order.places() : tiles;
+    // Workers begin at several places at once; all of them together have to keep an order.
+    const auto nextInOrder = [&]
     {
-        // Workers begin at several places at once; all of them together have to keep an order.
-        if (!queue.empty())
-            index = queue[next.fetch_add(1, std::memory_order_relaxed)];
-        else if (partial)
-            index = order.tile(next.fetch_add(1, std::memory_order_relaxed));
-        if (index == tiles) return;
+        const std::size_t place = next.fetch_add(1, std::memory_order_relaxed);
+        if (!queue.empty()) return place < tiles ? queue[place] : tiles;
+        if (!partial) return std::min(place, tiles);
+        return place < order.places() ? order.tile(place) : tiles;
+    };
+    const auto begins = [&](std::size_t index)
+    {
         const int tile = static_cast<int>(index);
         const bool lacksPass =
             pass.isLearning ? learntPasses[index] <= pass.number : film.tilePasses(tile) == before;
-        const bool renders =
-            lacksPass && !cancelled.load(std::memory_order_relaxed) && gate.begins();
-        if (renders) tileCounts[index] = renderTile(context, integrator, pass, tile);
-        if (renders && pass.isLearning) learntPasses[index] = pass.number + 1;
-        if (renders && !pass.isLearning) dirtyTiles[index] = 1;
-        if (display && (dirtyTiles[index] || !display->holdsImage)) resolveTile(*display, tile);
+        return lacksPass && !cancelled.load(std::memory_order_relaxed) && gate.begins();
+    };
+    const auto show = [&](std::size_t index)
+    {
+        if (display && (dirtyTiles[index] || !display->holdsImage))
+            resolveTile(*display, static_cast<int>(index));
         if (display) dirtyTiles[index] = 0;
     };
+    const auto renderBegun = [&](std::size_t index)
+    {
+        tileCounts[index] = renderTile(context, integrator, pass, static_cast<int>(index));
+        if (pass.isLearning)
+            learntPasses[index] = pass.number + 1;
+        else
+            dirtyTiles[index] = 1;
+    };
+    const auto renderOne = [&](std::size_t index)
+    {
+        if (partial) index = nextInOrder();
+        if (index == tiles) return;
+        if (begins(index)) renderBegun(index);
+        show(index);
+    };
+    SharedTiles shared;
+    shared.take = [&]
+    {
+        while (true)
+        {
+            const std::size_t index = nextInOrder();
+            if (next.load(std::memory_order_relaxed) > places && index == tiles) return -1;
+            if (index == tiles) continue; // a place without a tile
+            if (begins(index)) return static_cast<int>(index);
+            show(index);
+        }
+    };
+    shared.bring = [&](int tile, const TracedTile& traced)
+    {
+        const auto index = static_cast<std::size_t>(tile);
+        tileCounts[index] = takeTile(context, pass, tile, traced);
+        dirtyTiles[index] = 1;
+        show(index);
+    };
+    shared.left = [&]
+    {
+        const std::size_t taken = next.load(std::memory_order_relaxed);
+        return gate.over.load(std::memory_order_relaxed) || taken >= places
+                   ? 0
+                   : static_cast<int>(places - taken);
+    };
+    shared.photonsOf = [&](int tile) { return tilePhotons(tile, pass.number); };
+    const std::unique_ptr<PassHelp> passHelp = helpWith(context, pass, shared);
     try
     {
-        workers->forEach(partial && queue.empty() ? order.places() : tiles, renderOne);
+        if (!passHelp)
+            workers->forEach(places, renderOne);
+        else
+            renderWithHelp(
+                *passHelp, places,
+                [&]
+                {
+                    const std::size_t index = nextInOrder();
+                    if (index == tiles) return;
+                    if (begins(index)) renderBegun(index);
+                    show(index);
+                },
+                [&](int tile)
+                {
+                    renderBegun(static_cast<std::size_t>(tile));
+                    show(static_cast<std::size_t>(tile));
+                });
     }
     catch (...)
     {

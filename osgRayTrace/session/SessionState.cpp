@@ -131,6 +131,27 @@ bool SessionState::begin()
     return true;
 }
 
+/// Takes over the wanted scene, view and options without a film, for tiles of others' films.
+/// Returns false if the view cannot be traced.
+bool SessionState::beginView()
+{
+    filmScene.reset();
+    if (!scene || int64_t(view.width) * view.height > Film::kMaxPixels) return false;
+    const std::optional<CameraRays> rays =
+        cameraRays(view, scene->scene().origin, scene->scene().unit);
+    if (!rays) return false;
+    placedLights = engine::placedLights(scene->scene(), view);
+    strata = strataOf(*scene, options);
+    camera = *rays;
+    filmView = view;
+    filmOptions = options;
+    filmSeed = options.seed;
+    filmCentred = centred;
+    progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    filmScene = scene;
+    return true;
+}
+
 /// Clears the film for the wanted view. If the view continues, tiles without a pass have the depths
 /// and the surfaces that they had, and grow older. sums: what the film begins with; null: nothing.
 void SessionState::resetFilm(bool continues, const PassSums* sums)

@@ -9,9 +9,12 @@
 #include "osgRayTrace/session/DisplayTarget.h"
 #include "osgRayTrace/session/PhotonState.h"
 #include "osgRayTrace/session/RenderProgress.h"
+#include "osgRayTrace/session/TileHelp.h"
 #include "osgRayTrace/session/image/SurfaceMap.h"
 
 #include <atomic>
+#include <functional>
+#include <memory>
 #include <optional>
 
 namespace osgRayTrace::engine
@@ -32,12 +35,23 @@ struct SessionState
     };
 
     bool begin();
+    bool beginView();
     std::optional<int> askForPass(const StopRule& rule) const;
     NextPass nextPass() const;
     TileCounts renderTile(const PassContext& context, const Integrator& integrator,
                           const NextPass& pass, int tile);
     bool renderPass(const PassContext& context, const Integrator& integrator, const NextPass& pass,
                     const StopRule& rule, const DisplayTarget* display);
+    TileCounts takeTile(const PassContext& context, const NextPass& pass, int tile,
+                        const TracedTile& traced);
+    TilePhotons tilePhotons(int tile, int pass);
+    void takePhotons(int tile, int pass, const TilePhotons& traced, float alpha, RgbaLanes* rgba);
+    HelpedPass helpedPass(const PassContext& context, const NextPass& pass) const;
+    std::unique_ptr<PassHelp> helpWith(const PassContext& context, const NextPass& pass,
+                                       const SharedTiles& tiles) const;
+    void renderWithHelp(PassHelp& passHelp, std::size_t places,
+                        const std::function<void()>& takeOne,
+                        const std::function<void(int)>& trace);
     void finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes);
     void preparePhotons(PassContext& context, int pass);
     ErrorEstimate estimateError() const;
@@ -60,6 +74,7 @@ struct SessionState
     std::optional<PassContext> contextOfSize(int width, int height) const;
 
     std::shared_ptr<Workers> workers;
+    std::shared_ptr<TileHelp> help; // null: all tiles are traced here
 
     // These values are wanted next.
     std::shared_ptr<const TracedScene> scene;

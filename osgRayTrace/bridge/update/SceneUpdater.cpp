@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+#include "osgRayTrace/servers/LinkModule.h"
 
 #include <cmath>
 #include <exception>
@@ -191,6 +192,11 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     // The settings are set last: they are there only if all else is.
     if (!_settings || _settings->getThreads() != settings.getThreads())
         _workers = std::make_shared<Workers>(settings.getThreads());
+    if (!_settings || _settings->getServers() != settings.getServers())
+        _servers = openServers(settings.getServers());
+    if (_servers)
+        for (const std::string& note : _servers->takeNotes())
+            warnOnce(note);
     if (_settingsOf != &settings || _settingsCount != settings.getModifiedCount())
     {
         _settings = new RayTraceSettings(settings);
@@ -203,6 +209,7 @@ void SceneUpdater::takeSettings(const RayTraceSettings& settings)
     ViewInputs& inputs = _version.inputs;
     setInputs(inputs, *_settings);
     inputs.workers = _workers;
+    inputs.help = _servers;
     if (!inputs.photons) inputs.photons = std::make_shared<PhotonPasses>();
 }
 

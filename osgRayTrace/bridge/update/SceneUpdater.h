@@ -27,6 +27,8 @@
 namespace osgRayTrace::engine
 {
 
+class ServerPool; // servers: those who trace tiles elsewhere
+
 /// Keeps the traced scene up to date: the update traversal converts the scene, and draw threads
 /// take the current version. The cull traversal records which cameras look at the scene: the first
 /// camera, as long as it looks, is the reference for what all views share (levels of detail, the
@@ -131,6 +133,7 @@ private:
     osg::ref_ptr<const RayTraceSettings> _settingsOf; ///< settings that were copied
     unsigned int _settingsCount = 0;                  ///< count of the settings' changes then
     std::shared_ptr<Workers> _workers;
+    std::shared_ptr<ServerPool> _servers;     ///< null: the settings name none
     std::optional<unsigned int> _frameNumber; ///< frame of the last look
     // The last look and the last conversion, successful or not, were for these:
     std::optional<ViewingConditions> _conditions;

@@ -18,7 +18,7 @@ ToneMap toneMapOf(const ViewInputs& inputs)
 bool sameImage(const ViewInputs& a, const ViewInputs& b)
 {
     return a.scene == b.scene && a.workers == b.workers && a.photons == b.photons &&
-           !a.options.needsRestart(b.options) && a.exposureEv == b.exposureEv &&
+           a.help == b.help && !a.options.needsRestart(b.options) && a.exposureEv == b.exposureEv &&
            a.denoise == b.denoise && a.reprojects == b.reprojects &&
            a.keepsUnchanged == b.keepsUnchanged && a.maxPasses == b.maxPasses &&
            a.passesPerFrame == b.passesPerFrame;

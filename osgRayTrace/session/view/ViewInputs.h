@@ -13,6 +13,7 @@ namespace osgRayTrace::engine
 
 class TracedScene;  // accel: a Scene with its Embree structures
 class Workers;      // base: the threads that a render may use
+class TileHelp;     // session: those who trace tiles elsewhere
 class PhotonPasses; // photons: the maps that all views of a scene share
 
 /// ViewInputs is plain data: a copy stays as it is while the scene and the settings go on.
@@ -22,6 +23,7 @@ struct ViewInputs
     std::shared_ptr<const TracedScene> scene;
     std::shared_ptr<Workers> workers;
     std::shared_ptr<PhotonPasses> photons; ///< shared by all views of the scene
+    std::shared_ptr<TileHelp> help;        ///< null: all tiles are traced here
     RenderOptions options;
     float exposureEv = 0.0f; ///< [f-stops]
     DenoiseKind denoise = DenoiseKind::Off;

@@ -52,6 +52,8 @@ bool ViewTracer::takeInputs(const ViewInputs& inputs, const View& pass)
         _displayState = DisplayState::Whole;
         moved = true;
     }
+    _session->setHelp(inputs.help);
+    _reduced->setHelp(inputs.help);
     if (inputs.scene != _scene)
     {
         // A session that is not shown would keep the last scene from being changed in place.
