@@ -199,6 +199,10 @@ const std::vector<OptionRow>& optionTable()
         numberRow("threads", kThreadsRange, &S::getThreads, &S::setThreads,
                   "Threads, the calling one included; 0: all of the machine"),
         numberRow("seed", kSeedRange, &S::getSeed, &S::setSeed, "Equal seeds give equal images"),
+        numberRow("aperture", kApertureRange, &S::getAperture, &S::setAperture,
+                  "Diameter of the lens of perspective views [length]; 0: all is sharp"),
+        numberRow("focus", kFocusRange, &S::getFocus, &S::setFocus,
+                  "Distance that the lens shows sharp [length]; 0: what is straight ahead"),
         numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
                   "Exposure [EV]: radiance times 2^value before display"),
         choiceRow(

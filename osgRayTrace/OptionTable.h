@@ -36,6 +36,8 @@ constexpr Range<int> kPassesPerFrameRange{1, 1024};
 constexpr Range<int> kThreadsRange{0, 1024};
 constexpr Range<unsigned int> kSeedRange{0, std::numeric_limits<unsigned int>::max()};
 constexpr Range<float> kExposureRange{-32.0f, 32.0f};
+constexpr Range<float> kApertureRange{0.0f, 1e30f};
+constexpr Range<float> kFocusRange{0.0f, 1e30f};
 constexpr Range<int> kPhotonsRange{0, 1 << 24};
 constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};

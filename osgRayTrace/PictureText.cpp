@@ -28,6 +28,8 @@ constexpr const char* kOptions[] = {"integrator",
                                     "shadows",
                                     "terminator-correction",
                                     "debug-channel",
+                                    "aperture",
+                                    "focus",
                                     "seed",
                                     "photons",
                                     "photon-radius",
@@ -74,6 +76,7 @@ std::string pictureText(const PictureInputs& picture)
     for (const char* option : kOptions)
         add(option, picture.settings.get(option));
     add("scene", hexadecimal(engine::sceneDigest(picture.scene)));
+    if (!picture.shutterEnd.empty()) add("shutter", picture.shutterEnd);
     return text;
 }
 

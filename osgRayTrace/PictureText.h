@@ -24,6 +24,7 @@ struct PictureInputs
     const RayTraceSettings& settings;
     osg::Matrixd view, projection;
     int width, height;
+    std::string shutterEnd; ///< what is seen as the shutter closes; empty: there is none
 };
 
 /// Returns lines of a name and a value each: of all that decides on the bits of a pass.

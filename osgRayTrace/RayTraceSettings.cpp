@@ -83,6 +83,10 @@ RayTraceSettings::RayTraceSettings()
     _modifiedCount = 0;
 }
 
+struct RayTraceSettings::WithoutEnvironment
+{
+};
+
 RayTraceSettings::RayTraceSettings(WithoutEnvironment) {}
 
 RayTraceSettings::RayTraceSettings(const RayTraceSettings& other, const osg::CopyOp& copyop)
@@ -237,6 +241,16 @@ void RayTraceSettings::setThreads(int value)
 void RayTraceSettings::setSeed(unsigned int value)
 {
     change(_values.seed, value, _modifiedCount);
+}
+
+void RayTraceSettings::setAperture(float value)
+{
+    changeNumber("aperture", kApertureRange, _values.aperture, value, _modifiedCount);
+}
+
+void RayTraceSettings::setFocus(float value)
+{
+    changeNumber("focus", kFocusRange, _values.focus, value, _modifiedCount);
 }
 
 void RayTraceSettings::setExposure(float value)

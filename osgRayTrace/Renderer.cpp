@@ -152,6 +152,11 @@ void Renderer::setPassSource(const std::function<int()>& next)
     _implementation->passSource = next;
 }
 
+void Renderer::setShutter(const std::function<void(double moment)>& pose)
+{
+    _implementation->shutter = pose;
+}
+
 std::string Renderer::getPictureText() const
 {
     return _implementation->pictureName();

@@ -5,12 +5,15 @@
 
 #include "osgRayTrace/PassSumsState.h"
 #include "osgRayTrace/PictureText.h"
+#include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/common/HomeView.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+
+#include "osgRayTrace/sampling/Sampler.h"
 
 #include <osg/Light>
 
@@ -50,7 +53,7 @@ osg::ref_ptr<const osg::Light> viewerHeadlight()
 std::string textOf(const RenderedInputs& inputs)
 {
     return pictureText({inputs.traced->scene(), *inputs.settings, inputs.view, inputs.projection,
-                        inputs.width, inputs.height});
+                        inputs.width, inputs.height, inputs.shutterEnd});
 }
 
 } // namespace
@@ -64,16 +67,19 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     if (int64_t(width) * height > kMostPixels)
         throw EngineError(StatusCode::InvalidView, "the image has more than 2^28 pixels");
 
-    placeHomeView();
     prepareSession();
-    convertScene();
-    session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
-    session->setOptions(engine::renderOptionsFromSettings(*settings));
+    if (!shutter) placeHomeView();
+    const std::string shutterEnd = shutter ? openShutter() : std::string();
+    if (!shutter) showScene();
+    engine::RenderOptions options = engine::renderOptionsFromSettings(*settings);
+    options.moving = static_cast<bool>(shutter);
+    session->setOptions(options);
     session->setFirstPass(firstPass);
     // The session would forget the cancellation at its first pass.
     if (cancelled) throw EngineError(StatusCode::Cancelled, "the render was cancelled");
     const RenderedInputs inputs{
-        traced, new RayTraceSettings(*settings), viewMatrix, projectionMatrix, width, height};
+        traced,    new RayTraceSettings(*settings), viewMatrix, projectionMatrix, width, height,
+        shutterEnd};
     if (nextSums) session->resume(checkedSums(inputs));
 
     engine::setDenoiseStatistics(statistics, engine::DenoiseReport(), 0.0);
@@ -100,6 +106,8 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
             rendered = inputs; // it may ask for the picture before the first pass
             return next();
         };
+    if (shutter)
+        rule.pose = [this](int pass) { pose(engine::momentOf(settings->getSeed(), pass)); };
     const engine::RenderProgress result = session->render(rule, keepGoing);
     if (result.status.code != StatusCode::InvalidView) rendered = inputs;
     engine::setImageStatistics(statistics, result);
@@ -204,6 +212,35 @@ void Renderer::Implementation::prepareSession()
     session = std::move(fresh);
 }
 
+/// Makes the session show the scene and the view as they are now.
+void Renderer::Implementation::showScene()
+{
+    convertScene();
+    session->setView(engine::viewFromMatrices(viewMatrix, projectionMatrix, width, height));
+}
+
+/// Brings the scene to a moment while the shutter is open.
+void Renderer::Implementation::pose(double moment)
+{
+    shutter(moment);
+    scenePosed = true;
+    showScene();
+}
+
+/// Begins a new picture, and brings the scene to the moment at which the shutter opens. Returns the
+/// text that names what is seen as it closes: pictures that differ in that are not joined.
+std::string Renderer::Implementation::openShutter()
+{
+    session->clear();
+    shutter(0.0);
+    placeHomeView();
+    pose(1.0);
+    const std::string end =
+        textOf({traced, settings, viewMatrix, projectionMatrix, width, height, {}});
+    pose(0.0);
+    return std::to_string(engine::memoryHash(end.data(), end.size()));
+}
+
 /// Brings traced up to date. The eye counts: levels of detail and the engine's origin depend on it.
 void Renderer::Implementation::convertScene()
 {
@@ -217,7 +254,7 @@ void Renderer::Implementation::convertScene()
     const auto materials = materialFile.materials(settings->getMaterials(), sceneDirty);
     const ConversionKey key{eye, view, clearColor, headlight,
                             engine::conversionSettings(*settings, materials)};
-    if (traced && !sceneDirty && key == convertedFor) return;
+    if (traced && !sceneDirty && !scenePosed && key == convertedFor) return;
 
     const std::lock_guard<std::mutex> lock(graphMutex());
     if (sceneDirty) converter.forget();
@@ -226,7 +263,7 @@ void Renderer::Implementation::convertScene()
     traced = engine::TracedScene::build(conversion.scene, workers, traced);
     session->setScene(traced);
     convertedFor = key;
-    sceneDirty = false;
+    sceneDirty = scenePosed = false;
     engine::setSceneStatistics(statistics, conversion, *traced);
 }
 

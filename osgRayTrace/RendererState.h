@@ -46,12 +46,14 @@ struct RenderedInputs
     osg::ref_ptr<const RayTraceSettings> settings;
     osg::Matrixd view, projection;
     int width = 0, height = 0;
+    std::string shutterEnd; ///< names what is seen as the shutter closes; empty: there is none
 };
 
 struct Renderer::Implementation
 {
     osg::ref_ptr<osg::Node> scene;
-    bool sceneDirty = true;
+    bool sceneDirty = true;  ///< all of the graph may have changed, in any way
+    bool scenePosed = false; ///< the graph has changed as a viewer's graph does in update
     osg::Matrixd viewMatrix;
     osg::Matrixd projectionMatrix;
     std::optional<double> homeFovyDegrees; ///< if set, both matrices come from the scene's bound
@@ -65,6 +67,7 @@ struct Renderer::Implementation
     bool wholePasses = false;
     std::function<int()> passSource;
     std::optional<PassSums> nextSums; ///< sums that the next render() begins with
+    std::function<void(double)> shutter;
 
     Statistics statistics;
     int threads = -1; ///< threads for which the session was made
@@ -92,6 +95,9 @@ struct Renderer::Implementation
     void placeHomeView();
     void prepareSession();
     void convertScene();
+    void showScene();
+    void pose(double moment);
+    std::string openShutter();
     engine::ConversionInput conversionInput(const ConversionKey& key) const;
     bool hasImage() const { return session && session->progress().imageShare > 0.0; }
     /// Returns whether images are denoised. An image with missing tiles is not: single tiles cannot

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
 
+#include "CameraPath.h"
 #include "apps/common/Failure.h"
 
 namespace osgRayTrace::app
@@ -24,6 +25,15 @@ std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scen
                               (names.empty() ? "none" : names));
 }
 
+/// Returns where the turntable has a placement at the options' time.
+Placement turnedPlacement(const Options& options, const Placement& placement, const Placement& home)
+{
+    if (options.turnFrames == 0) return placement;
+    const double turns = options.at * options.framesPerSecond / options.turnFrames;
+    return turned(placement, options.center.value_or(home.center), options.up.value_or(home.up),
+                  2.0 * osg::PI * turns);
+}
+
 } // namespace
 
 Placement homePlacement(const Options& options, osg::Node& scene)
@@ -35,6 +45,12 @@ Placement homePlacement(const Options& options, osg::Node& scene)
 
 Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
 {
+    if (options.cameraPath)
+    {
+        const double fovyDegrees = options.fovyDegrees.value_or(kOsgViewerFovyDegrees);
+        return cameraAt(placementOn(*options.cameraPath, options.at, fovyDegrees), scene,
+                        options.aspect());
+    }
     const std::optional<Placement> chosen = chosenPlacement(options, scene);
     const std::optional<Placement> stored = chosen ? chosen : storedPlacement(scene);
     Placement placement = stored.value_or(home);
@@ -45,7 +61,7 @@ Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
     if (options.fovyDegrees) placement.height = 0.0;
     const std::string problem = whyNoView(placement, "--");
     if (!problem.empty()) throw Failure(kUsage, problem);
-    return cameraAt(placement, scene, options.aspect());
+    return cameraAt(turnedPlacement(options, placement, home), scene, options.aspect());
 }
 
 osg::Matrixd croppedProjection(const Options& options, const osg::Matrixd& projection)

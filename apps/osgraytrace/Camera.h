@@ -12,7 +12,8 @@ namespace osgRayTrace::app
 Placement homePlacement(const Options& options, osg::Node& scene);
 
 /// Returns the camera that the options name; without a name the first osg::CameraView of the scene,
-/// or else home. Values of the options replace those of the view.
+/// or else home. Values of the options replace those of the view, and a moving view is that of the
+/// options' time.
 /// Near and far planes are those that osgviewer would compute from the scene's bound. Throws
 /// Failure(kUsage) if the options define no view, or the scene has no camera of the name.
 Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home);

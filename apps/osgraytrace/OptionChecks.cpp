@@ -3,7 +3,10 @@
 #include "OptionChecks.h"
 
 #include "PictureFormat.h"
+#include "Video.h"
 #include "apps/common/Failure.h"
+
+#include <algorithm>
 
 namespace osgRayTrace::app
 {
@@ -35,9 +38,22 @@ void checkFrames(const Options& options)
     std::vector<std::string> files = options.outputs;
     if (!options.statistics.empty()) files.push_back(options.statistics);
     for (const std::string& file : files)
-        if (!frameName(file, 0))
+        if (!isVideo(file) && !frameName(file, 0))
             throw Failure(kUsage, file + ": --frames needs one place for the number in the name, "
                                          "as in out.%04d.png");
+}
+
+/// Throws Failure if there are no frames for a video, or nothing that can make it.
+void checkVideo(const Options& options)
+{
+    const auto videos = std::count_if(options.outputs.begin(), options.outputs.end(), isVideo);
+    if (videos == 0) return;
+    if (videos > 1) throw Failure(kUsage, "one -o FILE is a video at most");
+    if (!options.frames)
+        throw Failure(kUsage, "a video needs --frames, --turntable or --camera-path");
+    if (options.skipsExisting) throw Failure(kUsage, "--skip-existing excludes videos");
+    const std::string problem = whyNoVideo();
+    if (!problem.empty()) throw Failure(kCannotWrite, problem);
 }
 
 /// Throws Failure(kUsage) if passes cannot be kept, or joined, as the options ask.
@@ -57,6 +73,7 @@ void checkParts(const Options& options)
     }
     if (!options.checkpoint.empty() && formatOf(options.checkpoint) != Format::Exr)
         throw Failure(kUsage, "--checkpoint " + options.checkpoint + ": the name ends in .exr");
+    exclude("--shutter", "--context", options.shutter > 0.0 && options.context != Context::None);
     if (options.merged.empty()) return;
     exclude("--merge", "models", !options.models.empty());
     exclude("--merge", "--mpi", options.mpi);
@@ -65,6 +82,9 @@ void checkParts(const Options& options)
     exclude("--merge", "--report", options.report);
     exclude("--merge", "--reference", !options.reference.empty());
     exclude("--merge", "--frames", options.frames.has_value());
+    exclude("--merge", "--camera-path", options.cameraPath.valid());
+    exclude("--merge", "--turntable", options.turnFrames != 0);
+    exclude("--merge", "--shutter", options.shutter > 0.0);
     exclude("--merge", "--context", options.context != Context::None);
     exclude("--merge", "--names", options.names);
     exclude("--merge", "--crop", options.crop.has_value());
@@ -84,6 +104,7 @@ void checkOptions(const Options& options)
         throw Failure(kUsage, "no MODEL given; --help shows the options");
     checkWrittenMaterials(options);
     checkFrames(options);
+    checkVideo(options);
     const bool lists =
         options.names || !options.writtenMaterials.empty() || !options.checkpoint.empty();
     if (options.outputs.empty() && !options.report && !lists)
@@ -98,9 +119,12 @@ void checkOptions(const Options& options)
     bool exr = false;
     for (const std::string& output : options.outputs)
     {
+        if (isVideo(output)) continue;
         const std::optional<Format> format = formatOf(output);
         if (!format)
-            throw Failure(kUsage, "-o " + output + ": the name ends in none of .exr, .png, .jpg");
+            throw Failure(kUsage, "-o " + output +
+                                      ": the name ends in none of .exr, .png, .jpg, "
+                                      ".mp4, .mov, .mkv, .webm");
         exr = exr || *format == Format::Exr;
     }
     if (!options.channels.empty() && !exr) throw Failure(kUsage, "--aov needs an -o FILE.exr");

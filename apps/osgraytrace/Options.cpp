@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "Options.h"
 
+#include "MotionOptions.h"
+#include "NumberChecks.h"
 #include "OptionChecks.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Program.h"
@@ -35,7 +37,7 @@ struct RawOptions
     std::vector<double> eye, center, up;
     double fovyDegrees = 0.0;
     std::string context;
-    std::string frames;
+    RawMotion motion;
     std::vector<double> sun;
     std::string headlight;
 };
@@ -47,27 +49,6 @@ std::string commaSeparated(std::string range)
         range.replace(bar, 1, ", ");
     }
     return range;
-}
-
-/// Returns a validator for numbers within (low, high), low and high themselves excluded.
-CLI::Validator between(double low, double high, const std::string& wanted)
-{
-    const auto problem = [=](const std::string& text)
-    {
-        const auto value = engine::parseNumber<double>(text);
-        const bool good = value && *value > low && *value < high;
-        return good ? std::string() : "'" + text + "' is not " + wanted;
-    };
-    return CLI::Validator(problem, "");
-}
-
-CLI::Validator finite()
-{
-    return between(-HUGE_VAL, HUGE_VAL, "a finite number");
-}
-CLI::Validator positive()
-{
-    return between(0.0, HUGE_VAL, "a number above 0");
 }
 
 CLI::Validator oneOf(const std::string& words)
@@ -159,8 +140,10 @@ void addLightOptions(CLI::App& app, Options& options, RawOptions& raw)
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
 {
     app.add_option("MODEL", options.models, "Files that OpenSceneGraph reads")->option_text("...");
-    app.add_option("-o,--output", options.outputs,
-                   "Picture to write: .exr, .png, .jpg; may be repeated")
+    app.add_option(
+           "-o,--output", options.outputs,
+           "Picture to write: .exr, .png, .jpg, or video of frames: .mp4, .mov, .mkv, .webm; "
+           "may be repeated")
         ->option_text("FILE")
         ->allow_extra_args(false);
     app.add_option("--size", raw.size, "Pixels (1280 720)")->option_text("W H")->expected(2);
@@ -190,23 +173,7 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
 
     addLightOptions(app, options, raw);
-    app.add_option("--at", options.at,
-                   "Time that the model is shown at: animations go on till then")
-        ->option_text("SECONDS")
-        ->check(between(-1e-300, 1e9, "a number from 0 on"));
-    app.add_option("--frames", raw.frames,
-                   "Frames of an animation, both included; -o and --stats then name the place of "
-                   "the number: out.%04d.png")
-        ->option_text("FIRST:LAST")
-        ->excludes("--at");
-    app.add_option("--fps", options.framesPerSecond, "Frames a second (25)")
-        ->option_text("RATE")
-        ->needs("--frames")
-        ->check(positive());
-    app.add_flag("--skip-existing", options.skipsExisting,
-                 "Leaves out the frames whose files are there")
-        ->needs("--frames");
-
+    addMotionOptions(app, options, raw.motion);
     app.add_option("--time", options.seconds, "Stop after so many seconds")
         ->option_text("SECONDS")
         ->check(positive());
@@ -288,12 +255,7 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
     if (!raw.center.empty()) options.center = vectorOf(raw.center);
     if (!raw.up.empty()) options.up = vectorOf(raw.up);
     if (app.count("--fovy")) options.fovyDegrees = raw.fovyDegrees;
-    if (!raw.frames.empty())
-    {
-        options.frames = frameRangeOf(raw.frames);
-        if (!options.frames)
-            throw Failure(kUsage, "--frames " + raw.frames + ": is not FIRST:LAST, as 0:250");
-    }
+    applyMotion(app, raw.motion, options);
     if (!raw.sun.empty())
     {
         if (std::abs(raw.sun[1]) > 90.0)

@@ -7,6 +7,7 @@
 
 #include <osgRayTrace/RayTraceSettings>
 
+#include <osg/AnimationPath>
 #include <osg/Vec3d>
 
 #include <optional>
@@ -48,6 +49,10 @@ struct Options
     std::optional<osg::Vec3d> up;
     std::optional<double> fovyDegrees;
 
+    osg::ref_ptr<osg::AnimationPath> cameraPath; ///< null: the view stands
+    int turnFrames = 0;   ///< frames of a turn around the view's centre; 0: it stands
+    double shutter = 0.0; ///< time that the shutter is open [s]; 0: pictures are of a moment
+
     AddedLights lights;            ///< beside those of the models
     std::optional<bool> headlight; ///< nothing: on unless lights are added
 
@@ -84,6 +89,9 @@ struct Options
     {
         return crop ? double(crop->fullWidth) / crop->fullHeight : double(width) / height;
     }
+
+    /// Returns whether the view moves with the time.
+    bool hasMovingView() const { return cameraPath || turnFrames != 0; }
 
     /// Returns whether scenes without a light of number 0 get one at the eye.
     bool hasHeadlight() const { return headlight.value_or(!lights.any()); }

@@ -5,6 +5,7 @@
 #include "Camera.h"
 #include "Options.h"
 #include "Progress.h"
+#include "TimedScene.h"
 
 #include <osgRayTrace/Renderer>
 
@@ -28,20 +29,20 @@ struct Picture
 };
 
 /// Renders with osgRayTrace::Renderer. Throws Failure(kCannotRender).
-Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
+Picture renderWithoutContext(const Options& options, TimedScene& shown, const Camera& camera,
                              Progress& progress);
 
 class Group;
 
 /// Renders with osgRayTrace::Renderer as rank 0 of a group. Throws Failure.
-Picture renderInGroup(const Options& options, osg::Node& scene, const Camera& camera,
+Picture renderInGroup(const Options& options, TimedScene& shown, const Camera& camera,
                       Progress& progress, Group& group);
 
 /// Makes passes for rank 0 of the group, till it wants no more.
-void helpInGroup(const Options& options, osg::Node& scene, const Camera& camera, Group& group);
+void helpInGroup(const Options& options, TimedScene& shown, const Camera& camera, Group& group);
 
-/// Returns a renderer of the scene for the options.
-osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, const Camera& camera);
+/// Returns a renderer of the scene for the options, which are valid as long as it renders.
+osg::ref_ptr<Renderer> newRenderer(const Options& options, TimedScene& shown, const Camera& camera);
 
 /// Returns the images and channels of a renderer that has rendered. Throws Failure(kCannotRender).
 Picture pictureOf(const Renderer& renderer, const Options& options);

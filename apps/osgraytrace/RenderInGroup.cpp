@@ -174,16 +174,16 @@ GroupPlan planOf(const Options& options, RankRender& render)
 
 } // namespace
 
-void helpInGroup(const Options& options, osg::Node& scene, const Camera& camera, Group& group)
+void helpInGroup(const Options& options, TimedScene& shown, const Camera& camera, Group& group)
 {
-    RankRender render{newRenderer(options, scene, camera), {}, false};
+    RankRender render{newRenderer(options, shown, camera), {}, false};
     helpToRender(group, workOf(render, options), hooksFor(nullptr));
 }
 
-Picture renderInGroup(const Options& options, osg::Node& scene, const Camera& camera,
+Picture renderInGroup(const Options& options, TimedScene& shown, const Camera& camera,
                       Progress& progress, Group& group)
 {
-    RankRender render{newRenderer(options, scene, camera), {}, false};
+    RankRender render{newRenderer(options, shown, camera), {}, false};
     GroupPlan plan = planOf(options, render);
     const auto judge = [&](const engine::PassSums& sums, bool keeps)
     {

@@ -11,10 +11,30 @@
 namespace osgRayTrace::app
 {
 
-osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, const Camera& camera)
+namespace
+{
+
+/// Lets the passes of a renderer show the scene while the shutter is open.
+void openShutter(const Options& options, TimedScene& shown, Renderer& renderer)
+{
+    renderer.setShutter(
+        [&options, &shown, &renderer](double moment)
+        {
+            Options then = options;
+            then.at = options.at + moment * options.shutter;
+            shown.clock.goTo(then.at);
+            const Camera camera = cameraOf(then, *shown.scene, shown.home);
+            renderer.setViewMatrix(camera.view);
+            renderer.setProjectionMatrix(croppedProjection(options, camera.projection));
+        });
+}
+
+} // namespace
+
+osg::ref_ptr<Renderer> newRenderer(const Options& options, TimedScene& shown, const Camera& camera)
 {
     osg::ref_ptr<Renderer> renderer = new Renderer;
-    renderer->setScene(&scene);
+    renderer->setScene(shown.scene.get());
     renderer->setViewMatrix(camera.view);
     renderer->setProjectionMatrix(camera.projection);
     renderer->setClearColor(camera.clearColor);
@@ -22,6 +42,7 @@ osg::ref_ptr<Renderer> newRenderer(const Options& options, osg::Node& scene, con
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
     renderer->setWholePasses(options.isPart());
+    if (options.shutter > 0.0) openShutter(options, shown, *renderer);
     return renderer;
 }
 
@@ -42,10 +63,10 @@ Picture pictureOf(const Renderer& renderer, const Options& options)
     return picture;
 }
 
-Picture renderWithoutContext(const Options& options, osg::Node& scene, const Camera& camera,
+Picture renderWithoutContext(const Options& options, TimedScene& shown, const Camera& camera,
                              Progress& progress)
 {
-    const osg::ref_ptr<Renderer> renderer = newRenderer(options, scene, camera);
+    const osg::ref_ptr<Renderer> renderer = newRenderer(options, shown, camera);
     renderer->setFirstPass(options.firstPass);
     CheckpointKeeper keeper(options, camera.clearColor, *renderer);
 

@@ -39,12 +39,8 @@ void checkFiles(const Options& options);
 /// Takes the settings of the scene; those of the command line win. Throws Failure(kCannotLoad).
 void takeSettingsOf(osg::Node& scene, Options& options);
 
-/// Returns the home view of the scene's first frame, and brings the scene to its time.
-Placement goToPicture(const Options& options, osg::Node& scene);
-
-/// Renders the scene as it is now. Throws Failure.
-Picture render(const Options& options, osg::Node& scene, const Placement& home,
-               Group* group = nullptr);
+/// Renders the scene at the options' time. Throws Failure.
+Picture render(const Options& options, TimedScene& shown, Group* group = nullptr);
 
 /// Writes a picture and its statistics; all that can be written, whatever else fails. Returns the
 /// exit code.

@@ -44,8 +44,9 @@ void help(Options options, Group& group)
     {
         const osg::ref_ptr<osg::Node> scene = readScene(options.models);
         takeSettingsOf(*scene, options);
-        const Placement home = goToPicture(options, *scene);
-        helpInGroup(options, *scene, cameraOf(options, *scene, home), group);
+        TimedScene shown(options, scene);
+        shown.clock.goTo(options.at);
+        helpInGroup(options, shown, cameraOf(options, *scene, shown.home), group);
     }
     catch (const Failure& failure)
     {

@@ -4,7 +4,6 @@
 #include "PictureTexts.h"
 #include "Reference.h"
 #include "Run.h"
-#include "SceneClock.h"
 #include "StatisticsText.h"
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Interruption.h"
@@ -72,12 +71,9 @@ std::vector<std::string> writableOutputs(const Options& options, int& code)
 
 } // namespace
 
-Placement goToPicture(const Options& options, osg::Node& scene)
+TimedScene::TimedScene(const Options& options, const osg::ref_ptr<osg::Node>& timed)
+    : scene(timed), clock(*timed), home(homePlacement(options, *timed))
 {
-    SceneClock clock(scene);
-    const Placement home = homePlacement(options, scene);
-    clock.goTo(options.at);
-    return home;
 }
 
 void takeSettingsOf(osg::Node& scene, Options& options)
@@ -89,15 +85,17 @@ void takeSettingsOf(osg::Node& scene, Options& options)
     if (!error.empty()) throw Failure(kCannotLoad, "materials of the scene: " + error);
 }
 
-Picture render(const Options& options, osg::Node& scene, const Placement& home, Group* group)
+Picture render(const Options& options, TimedScene& shown, Group* group)
 {
-    const Camera whole = cameraOf(options, scene, home);
+    shown.clock.goTo(options.at);
+    osg::Node& scene = *shown.scene;
+    const Camera whole = cameraOf(options, scene, shown.home);
     Camera camera = whole;
     camera.projection = croppedProjection(options, whole.projection);
     Progress progress(options);
-    Picture picture = group ? renderInGroup(options, scene, camera, progress, *group)
+    Picture picture = group ? renderInGroup(options, shown, camera, progress, *group)
                       : options.context == Context::None
-                          ? renderWithoutContext(options, scene, camera, progress)
+                          ? renderWithoutContext(options, shown, camera, progress)
                           : renderInContext(options, scene, camera, progress);
     picture.texts = pictureTexts(options, whole, picture.statistics);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
@@ -163,10 +161,10 @@ int runPicture(Options options, Group* group)
         reference = readReference(options.reference, options.width, options.height);
     const osg::ref_ptr<osg::Node> scene = withLights(readScene(options.models), options.lights);
     takeSettingsOf(*scene, options);
-    const Placement home = goToPicture(options, *scene);
+    TimedScene shown(options, scene);
 
     const OrderlyEnd end; // from here on there are results to write
-    const Picture picture = render(options, *scene, home, group);
+    const Picture picture = render(options, shown, group);
     std::optional<ErrorMeasures> measures;
     if (reference) measures = errorMeasures(*picture.radiance, *reference);
 

@@ -17,7 +17,7 @@ public:
     /// slides are chosen, skeletons are posed, clocks are set.
     explicit SceneClock(osg::Node& scene);
 
-    /// Brings the scene to a later time [s]. Equal times change nothing.
+    /// Brings the scene to another time [s]. Equal times change nothing.
     void goTo(double seconds);
 
 private:

@@ -19,7 +19,10 @@ enum Dimension : uint32_t
     DimensionLightPoint = 2,
     DimensionLightChoice = 3,
 
-    DimensionDiscEdge = 0x40000000, ///< of a pixel, above those of all bounces
+    // These dimensions are above those of all bounces.
+    DimensionDiscEdge = 0x40000000, ///< of a pixel
+    DimensionLens = 0x40000001,     ///< of a pixel
+    DimensionMoment = 0x40000002,   ///< of a pass
 };
 constexpr uint32_t kDimensionsPerBounce = 4;
 
@@ -52,6 +55,13 @@ OSGRAYTRACE_INLINE uint32_t dimensionSeed(uint32_t pixelSeed, uint32_t dimension
 OSGRAYTRACE_INLINE uint32_t bounceDimension(int bounce, uint32_t offset)
 {
     return DimensionBounceFirst + static_cast<uint32_t>(bounce) * kDimensionsPerBounce + offset;
+}
+
+/// Returns when a pass looks while a shutter is open, in [0,1). All pixels of a pass look at once.
+inline float momentOf(uint32_t userSeed, int pass)
+{
+    const PassKey key = passKey(userSeed, pass);
+    return sobol1(key.index, dimensionSeed(key.seed, DimensionMoment));
 }
 
 } // namespace osgRayTrace::engine

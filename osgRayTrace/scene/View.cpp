@@ -136,4 +136,23 @@ std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double
     return rays;
 }
 
+Vec3 lineOfSight(const View& view)
+{
+    return Vec3(-glm::normalize(Vec3d(glm::transpose(glm::dmat3(view.viewFromWorld))[2])));
+}
+
+void openLens(const View& view, double aperture, double distance, CameraRays& rays)
+{
+    if (rays.orthographic || !(aperture > 0.0) || !(distance > 0.0)) return;
+    const glm::dmat3 axes = glm::transpose(glm::dmat3(view.viewFromWorld));
+    const double radius = 0.5 * aperture;
+    const Vec3 lensX(radius * glm::normalize(Vec3d(axes[0])));
+    const Vec3 lensY(radius * glm::normalize(Vec3d(axes[1])));
+    const Vec3 focus = lineOfSight(view) / static_cast<float>(distance);
+    if (!engine::isFinite(lensX) || !engine::isFinite(lensY) || !engine::isFinite(focus)) return;
+    rays.lensX = lensX;
+    rays.lensY = lensY;
+    rays.focus = focus;
+}
+
 } // namespace osgRayTrace::engine

@@ -49,6 +49,14 @@ struct CameraRays
     // has a meaning.
     Vec4 depthRow{0.0f}; ///< clip z = dot(depthRow, (p, 1))
     Vec4 wRow{0.0f};     ///< clip w = dot(wRow, (p, 1))
+
+    // A thin lens; zero for a pinhole. The ray through a point L of the lens runs from origin + L
+    // in the direction d - L * dot(focus, d), where d is that of the pinhole's ray: all rays of a
+    // pixel meet where dot(focus, s * d) = 1 [Cook84].
+    Vec3 lensX{0.0f}, lensY{0.0f}; ///< half axes of the lens
+    Vec3 focus{0.0f};              ///< line of sight, divided by the distance of the sharp plane
+
+    bool hasLens() const { return lensX != Vec3(0.0f); }
 };
 
 /// Returns the camera rays of a view, or nothing for a zero size or for matrices that cannot be
@@ -56,5 +64,13 @@ struct CameraRays
 /// depth, off-axis and sheared projections as one case. sceneOrigin and sceneUnit are Scene::origin
 /// and Scene::unit.
 std::optional<CameraRays> cameraRays(const View& view, Vec3d sceneOrigin, double sceneUnit = 1.0);
+
+/// Returns the line of sight of a view, unit, in engine space.
+Vec3 lineOfSight(const View& view);
+
+/// Puts a lens into the rays of a perspective view. aperture is its diameter, distance that of the
+/// plane that is seen sharp, along the line of sight [engine units]. Does nothing for parallel rays
+/// and for lengths that are not positive.
+void openLens(const View& view, double aperture, double distance, CameraRays& rays);
 
 } // namespace osgRayTrace::engine

@@ -105,7 +105,7 @@ bool SceneReceiver::takePart(WireReader& in)
         if (!in.good() || moreUvs > kUvSets - kFirstMoreUvs)
             return refuse("a message about a scene has a mesh of too many texture coordinates");
         mesh->moreUvs.resize(moreUvs);
-        std::array<uint32_t, kMeshArrays + kUvSets - kFirstMoreUvs> numbers{};
+        std::array<uint32_t, kMostMeshArrays> numbers{};
         bool found = in.copy(numbers.data(), (kMeshArrays + moreUvs) * sizeof numbers[0]);
         const uint32_t* next = numbers.data();
         forEachArray(*mesh,

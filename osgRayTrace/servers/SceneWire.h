@@ -16,8 +16,11 @@
 namespace osgRayTrace::engine
 {
 
-/// The arrays of a mesh, in the order of its members.
+/// The number of arrays that all meshes have.
 constexpr std::size_t kMeshArrays = 9;
+
+/// How many a mesh has at most, with the texture coordinates that few have.
+constexpr std::size_t kMostMeshArrays = kMeshArrays + kUvSets - kFirstMoreUvs;
 
 /// Makes the messages of one receiver. Parts of a scene that the receiver has are named by number;
 /// meshes are told apart by their address while they live, and lists in blocks by their contents.
@@ -87,7 +90,7 @@ private:
     std::string _fault;
     std::unordered_map<uint32_t, MeshArray> _arrays;
     std::unordered_map<uint32_t, std::shared_ptr<const Mesh>> _meshes;
-    std::unordered_map<uint32_t, std::array<uint32_t, kMeshArrays>> _meshArrays; ///< by mesh
+    std::unordered_map<uint32_t, std::array<uint32_t, kMostMeshArrays>> _meshArrays; ///< by mesh
     std::unordered_map<uint32_t, std::shared_ptr<const Texture>> _textures;
     std::unordered_map<uint32_t, std::shared_ptr<const EnvironmentImage>> _images;
     std::vector<uint32_t> _meshSlots, _textureSlots;

@@ -82,7 +82,8 @@ bool areUsable(const RenderOptions& options)
     constexpr int kMost = 1 << 16;
     return options.lightSamples >= 1 && options.lightSamples <= kMost &&
            options.environmentSamples >= 1 && options.environmentSamples <= kMost &&
-           options.maxBounces >= 0 && options.maxBounces <= kMost;
+           options.maxBounces >= 0 && options.maxBounces <= kMost &&
+           std::isfinite(options.aperture) && std::isfinite(options.focus);
 }
 
 } // namespace

@@ -157,8 +157,10 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
         _statistics.assign(2 * _pixels, LocalStatistics());
     else
         _firstRadii.assign(_pixels, 0.0f);
-    // Whoever sets a radius wants discs of that radius.
-    if (!_local && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
+    // Whoever sets a radius wants discs of that radius, and a pixel has a footprint if all its
+    // passes come from one eye to one scene.
+    const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
+    if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
     _projection = PixelProjection(context.camera);
     if (context.options.integrator == IntegratorKind::Ppm)
         _hitPoints.resize(2 * _pixels / kTilePixels);

@@ -50,6 +50,10 @@ struct StopRule
     /// render ends with a number that is negative, or that the image has. Errors are then estimated
     /// for relativeError alone.
     std::function<int()> nextPass;
+    /// If pose is set, render() calls it on its thread before each pass, and before it goes on with
+    /// one: it may set another scene and view of the same size, which the pass then shows. The
+    /// options are moving.
+    std::function<void(int pass)> pose;
 };
 
 /// The reasons why photons have less effect than a user may expect.

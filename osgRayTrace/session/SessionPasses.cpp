@@ -298,7 +298,7 @@ RenderProgress SessionState::run(const StopRule& rule,
     bool shown = true;
     progress.passes = film.passes();
     progress.imageShare = imageShare();
-    if (filmFirstPass > 0 || progress.passes > 0 || rule.nextPass)
+    if (filmFirstPass > 0 || progress.passes > 0 || rule.nextPass || rule.pose)
         photons.choose(filmScene, contextOfPass(0), *workers);
     int added = 0; // passes that the film has got from this call
     for (int newPasses = 0; newPasses < rule.newPasses; ++newPasses)
@@ -313,6 +313,7 @@ RenderProgress SessionState::run(const StopRule& rule,
             rule.shouldStop(progress.newTiles, photons.secondsOf(pass)))
             break;
         const Clock::time_point passStart = Clock::now();
+        takePose(rule, pass);
         PassContext context = contextOf(next);
         progress.lights = sampledLightCounts(context);
         preparePhotons(context, pass);
@@ -337,6 +338,8 @@ RenderProgress SessionState::run(const StopRule& rule,
         if (keepGoing && !keepGoing(progress)) break;
     }
     if (display && progress.newTiles > 0 && !shown) resolveRest(*display);
+    // The depths of the image are those of its least pass, and so is all that is seen in it.
+    if (!filmPasses.empty()) takePose(rule, filmPasses.ranges().front().first);
     return progress;
 }
 

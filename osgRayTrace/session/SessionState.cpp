@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/SessionState.h"
 
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/integrators/shared/IntegratorChoice.h"
 #include "osgRayTrace/integrators/shared/SurfaceSample.h"
 
@@ -53,6 +55,39 @@ Mat3 eyeFromEngine(const View& view)
     return Mat3(glm::transpose(axes));
 }
 
+/// Returns the distance of what is straight ahead of the eye [engine units]; 0: nothing is.
+double distanceAhead(const View& view, const CameraRays& rays, const TracedScene& traced)
+{
+    const Vec3 sight = lineOfSight(view);
+    const Vec3 middle = rays.direction + 0.5f * static_cast<float>(view.width) * rays.directionDx +
+                        0.5f * static_cast<float>(view.height) * rays.directionDy;
+    const auto hit = traced.intersector().closestHit(
+        rays.origin, sight, rays.nearS * glm::dot(middle, sight), kInfinity, kCameraRays);
+    return hit ? static_cast<double>(hit->t) : 0.0;
+}
+
+/// Returns the rays of a view as the options have its lens; nothing as cameraRays() does.
+std::optional<CameraRays> raysOf(const View& view, const RenderOptions& options,
+                                 const TracedScene& traced)
+{
+    const Scene& scene = traced.scene();
+    std::optional<CameraRays> rays = cameraRays(view, scene.origin, scene.unit);
+    if (!rays || !(options.aperture > 0.0f) || options.integrator == IntegratorKind::Debug)
+        return rays;
+    const double focus = static_cast<double>(options.focus);
+    const double distance = focus > 0.0 ? focus / scene.unit : distanceAhead(view, *rays, traced);
+    openLens(view, static_cast<double>(options.aperture) / scene.unit, distance, *rays);
+    return rays;
+}
+
+/// Returns the integrator of an image. Hit points, which passes of Ppm share, do not outlast the
+/// moment of a pass.
+IntegratorKind integratorOf(const RenderOptions& options, const SceneTraits& traits)
+{
+    const IntegratorKind kind = chooseIntegrator(options.integrator, traits);
+    return options.moving && kind == IntegratorKind::Ppm ? IntegratorKind::Sppm : kind;
+}
+
 /// Returns the view's origin in engine space.
 Vec3 eyeOf(const View& view, const Scene& scene)
 {
@@ -83,8 +118,7 @@ bool SessionState::begin()
 
     std::optional<PassSums> sums = std::move(firstSums); // a render that fails forgets them
     firstSums.reset();
-    const std::optional<CameraRays> rays =
-        cameraRays(view, scene->scene().origin, scene->scene().unit);
+    const std::optional<CameraRays> rays = raysOf(view, options, *scene);
     if (!rays)
     {
         progress.status = {StatusCode::InvalidView,
@@ -115,7 +149,7 @@ bool SessionState::begin()
     progress = RenderProgress();
     progress.restarted = true;
     photonsCounted = 0;
-    progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    progress.integrator = integratorOf(options, scene->traits());
     hasSamples = false;
     if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
     {
@@ -137,8 +171,7 @@ bool SessionState::beginView()
 {
     filmScene.reset();
     if (!scene || int64_t(view.width) * view.height > Film::kMaxPixels) return false;
-    const std::optional<CameraRays> rays =
-        cameraRays(view, scene->scene().origin, scene->scene().unit);
+    const std::optional<CameraRays> rays = raysOf(view, options, *scene);
     if (!rays) return false;
     placedLights = engine::placedLights(scene->scene(), view);
     strata = strataOf(*scene, options);
@@ -150,6 +183,22 @@ bool SessionState::beginView()
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
     filmScene = scene;
     return true;
+}
+
+/// Lets the rule bring the scene and the view to the moment of a pass. The image goes on.
+void SessionState::takePose(const StopRule& rule, int pass)
+{
+    if (!rule.pose) return;
+    OSGRAYTRACE_ASSERT(filmOptions.moving);
+    rule.pose(pass);
+    const std::optional<CameraRays> rays = scene ? raysOf(view, filmOptions, *scene) : std::nullopt;
+    if (!rays || view.width != filmView.width || view.height != filmView.height)
+        throw EngineError(StatusCode::InvalidView, "the view cannot be seen at a moment of a pass");
+    camera = *rays;
+    placedLights = engine::placedLights(scene->scene(), view);
+    strata = strataOf(*scene, filmOptions);
+    filmScene = scene;
+    filmView = view;
 }
 
 /// Clears the film for the wanted view. If the view continues, tiles without a pass have the depths
@@ -195,6 +244,7 @@ PassContext SessionState::contextOfPass(int pass) const
     context.towardsViewer = glm::transpose(context.eyeFromEngine)[2];
     context.options = filmOptions;
     context.options.integrator = progress.integrator;
+    if (filmOptions.moving) context.options.photonGuiding = false; // what photons lit is gone
     context.key = passKey(filmSeed, pass);
     const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
     const int paths = sharesPaths ? sharedPaths(pass) : pass;

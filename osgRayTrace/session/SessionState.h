@@ -61,6 +61,7 @@ struct SessionState
     RenderProgress run(const StopRule& rule,
                        const std::function<bool(const RenderProgress&)>& keepGoing,
                        const DisplayTarget* display);
+    void takePose(const StopRule& rule, int pass);
     void finishSurfaces();
     void findSurfaces();
     void resetFilm(bool continues, const PassSums* sums);

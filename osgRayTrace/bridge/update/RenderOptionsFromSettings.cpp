@@ -96,6 +96,8 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.maxBounces = settings.getMaxBounces();
     options.shadows = settings.getShadows();
     options.terminatorCorrection = settings.getTerminatorCorrection();
+    options.aperture = settings.getAperture();
+    options.focus = settings.getFocus();
     options.seed = settings.getSeed();
     options.photons = settings.getPhotons();
     options.photonRadius = settings.getPhotonRadius();
@@ -135,8 +137,10 @@ void setInputs(ViewInputs& inputs, const RayTraceSettings& settings)
     inputs.options = renderOptionsFromSettings(settings);
     inputs.exposureEv = settings.getExposure();
     inputs.denoise = denoiseKind(settings);
-    inputs.reprojects = settings.getReproject();
-    inputs.keepsUnchanged = settings.getKeepUnchanged();
+    // A pixel behind a lens shows more than the surface that a pinhole sees in it.
+    const bool isPinhole = !(settings.getAperture() > 0.0f);
+    inputs.reprojects = isPinhole && settings.getReproject();
+    inputs.keepsUnchanged = isPinhole && settings.getKeepUnchanged();
     inputs.maxPasses = settings.getMaxPasses();
     inputs.passesPerFrame = settings.getPassesPerFrame();
 }

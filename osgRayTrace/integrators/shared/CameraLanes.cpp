@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 
+#include "osgRayTrace/sampling/Warp.h"
+
 #include <cmath>
 #include <cstring>
 
@@ -69,6 +71,40 @@ void raysThrough(const CameraRays& camera, const FloatLanes& x, const FloatLanes
         setRayThrough(c, x[i], y[i], i, ray);
 }
 
+/// Sets a ray from a point of the lens to where the pinhole's ray is sharp.
+OSGRAYTRACE_INLINE void setLensRay(const CameraRays& c, float x, float y, PlainVec3 lens, int i,
+                                   RayBlock& ray)
+{
+    const PlainVec3 through = directionAt(c, x, y);
+    const PlainVec3 d = through - lens * dot(plainOf(c.focus), through);
+    const float length = std::sqrt(dot(d, d));
+    setRay(ray, i, originAt(c, x, y) + lens, d * (1.0f / length), c.nearS * length, kInfinity);
+}
+
+/// Returns the point of the lens for (u, v), which is uniform in the unit square as the point is on
+/// the lens.
+OSGRAYTRACE_INLINE PlainVec3 lensPoint(const CameraRays& c, float u, float v)
+{
+    float sine, cosine;
+    sinCosTurn(u, sine, cosine);
+    const float radius = std::sqrt(v);
+    return plainOf(c.lensX) * (radius * cosine) + plainOf(c.lensY) * (radius * sine);
+}
+
+OSGRAYTRACE_KERNEL
+void raysThroughLens(const CameraRays& camera, uint32_t index, const FloatLanes& x,
+                     const FloatLanes& y, const UintLanes& seeds, RayBlock& ray)
+{
+    const CameraRays c = camera;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        float u, v;
+        sobol2(index, dimensionSeed(seeds[i], DimensionLens), u, v);
+        setLensRay(c, x[i], y[i], lensPoint(c, u, v), i, ray);
+    }
+}
+
 /// Returns s of the ray through a point of the image at the plane of lane i's surface.
 OSGRAYTRACE_INLINE float planeDistance(const CameraRays& c, float x, float y,
                                        const SurfaceLanes& surface, int i)
@@ -126,7 +162,10 @@ void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int 
     FloatLanes x, y;
     const int blockLeft = left + laneX(block, 0), blockBottom = bottom + laneY(block, 0);
     pixelPoints(key, blockLeft, blockBottom, centres, x, y, seeds);
-    raysThrough(camera, x, y, rays.ray);
+    if (camera.hasLens())
+        raysThroughLens(camera, key.index, x, y, seeds, rays.ray);
+    else
+        raysThrough(camera, x, y, rays.ray);
 }
 
 void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays)

@@ -9,11 +9,13 @@ namespace osgRayTrace::engine
 {
 
 /// Sets rays through one point of each pixel of a block of a tile, and the seeds of these pixels.
-/// The points are the pixel centres if centres is true, else those of the pass.
+/// The points are the pixel centres if centres is true, else those of the pass. If the camera has a
+/// lens, the rays come from points of it.
 void cameraRayLanes(const CameraRays& camera, const PassKey& key, int left, int bottom, int block,
                     bool centres, RayHitBlock& rays, UintLanes& seeds);
 
-/// Sets rays through the pixel centres of a block, for work that needs no random numbers.
+/// Sets rays through the pixel centres of a block and the middle of the lens, for work that needs
+/// no random numbers.
 void centreRayLanes(const CameraRays& camera, int left, int bottom, int block, RayHitBlock& rays);
 
 /// Sets, for each pixel centre of a block, where the centre's ray meets the plane of the triangle

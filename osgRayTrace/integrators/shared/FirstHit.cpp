@@ -242,14 +242,34 @@ void setSurfaces(const PassContext& context, const RayHitBlock& rays, const Surf
     setSamples(context, rays, surface, normal, outputs.samples + block * kLanes);
 }
 
-void recordFirstHits(const PassContext& context, int left, int bottom, int block,
-                     const RayHitBlock& rays, const SurfaceLanes& surface, FirstHitOutputs& outputs)
+static void recordHits(const PassContext& context, int left, int bottom, int block,
+                       const RayHitBlock& rays, const SurfaceLanes& surface,
+                       FirstHitOutputs& outputs)
 {
-    if (!context.wantsDepth) return;
     FloatLanes along;
     depthLanes(context.camera, left, bottom, block, surface, along, outputs.depth + block * kLanes);
     if (outputs.surfaces) setSurfaces(context, rays, surface, along, outputs.surfaces[block]);
     if (outputs.samples) recordSamples(context, block, rays, surface, outputs);
+}
+
+/// Records what is seen through the middle of the lens: rays through other points of the lens meet
+/// what a pinhole does not show in their pixel.
+[[gnu::noinline]] static void recordWithoutLens(const PassContext& context, int left, int bottom,
+                                                int block, FirstHitOutputs& outputs)
+{
+    FirstHitLanes hits;
+    traceCentres(context, left, bottom, block, kCameraRays, hits);
+    recordHits(context, left, bottom, block, hits.rays, hits.surface, outputs);
+}
+
+void recordFirstHits(const PassContext& context, int left, int bottom, int block,
+                     const RayHitBlock& rays, const SurfaceLanes& surface, FirstHitOutputs& outputs)
+{
+    if (!context.wantsDepth) return;
+    if (context.camera.hasLens())
+        recordWithoutLens(context, left, bottom, block, outputs);
+    else
+        recordHits(context, left, bottom, block, rays, surface, outputs);
 }
 
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen)

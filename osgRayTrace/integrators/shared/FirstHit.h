@@ -46,7 +46,8 @@ void firstSamples(const PassContext& context, int left, int bottom,
 void firstSurfaces(const PassContext& context, int left, int bottom, int block, SurfaceBlock& seen);
 
 /// Records the first hits of the camera rays of a block, as far as the pass wants them. The rays
-/// may pass through any points of their pixels.
+/// may pass through any points of their pixels. If the camera has a lens, rays through its middle
+/// are traced in their place.
 void recordFirstHits(const PassContext& context, int left, int bottom, int block,
                      const RayHitBlock& rays, const SurfaceLanes& surface,
                      FirstHitOutputs& outputs);

@@ -68,6 +68,11 @@ struct RenderOptions
     /// True: the first pass looks through the middles of the pixels, at which first hits are
     /// sampled. Images that are filtered or upsampled by their first hits need this.
     bool centredFirstPass = false;
+    /// True: passes show the scene at moments of their own, so that they learn from each other
+    /// nothing that holds for a moment alone.
+    bool moving = false;
+    float aperture = 0.0f; ///< diameter of the lens of perspective views [length]; 0: a pinhole
+    float focus = 0.0f; ///< distance that is seen sharp [length]; 0: that of what is straight ahead
     uint32_t seed = 0;
     int photons = 1 << 16;     ///< photons emitted in a pass
     float photonRadius = 0.0f; ///< radius in the first pass [length]; 0: from the photons' density
@@ -81,8 +86,8 @@ struct RenderOptions
     {
         return std::tie(integrator, lightSampling, debugChannel, lightSamples, environmentSampling,
                         environmentSamples, maxBounces, shadows, terminatorCorrection,
-                        centredFirstPass, seed, photons, photonRadius, photonAlpha, radiusSchedule,
-                        photonGuiding);
+                        centredFirstPass, moving, aperture, focus, seed, photons, photonRadius,
+                        photonAlpha, radiusSchedule, photonGuiding);
     }
 
     /// Returns true if an accumulated image made with previous cannot be continued with *this.

@@ -1,0 +1,194 @@
+// MotionTest.cpp - cameras that move, shutters and videos. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/apps/Program.h"
+
+#include <osg/AnimationPath>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <cstdlib>
+
+using Catch::Matchers::Contains;
+using Names = std::vector<std::string>;
+
+namespace
+{
+
+const std::string kQuick = "ball.osgt --size 64 16 --passes 2 ";
+
+/// Writes a ball at x = -3 over a box around the origin; it flies to x = 3 within the second
+/// second.
+void writeBall(const TemporaryFolder& folder)
+{
+    osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    path->setLoopMode(osg::AnimationPath::NO_LOOPING);
+    for (const auto& [time, x] : {std::pair(0.0, -3.0), std::pair(1.0, -3.0), std::pair(2.0, 3.0)})
+        path->insert(time, osg::AnimationPath::ControlPoint({x, 0.0, 0.0}));
+    osg::ref_ptr<osg::MatrixTransform> ball = new osg::MatrixTransform;
+    ball->setUpdateCallback(new osg::AnimationPathCallback(path));
+    ball->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f)));
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(ball);
+    root->addChild(new osg::ShapeDrawable(new osg::Box({0.0f, 0.0f, -2.0f}, 12.0f, 12.0f, 1.0f)));
+    REQUIRE(osgDB::writeNodeFile(*root, folder / "ball.osgt"));
+}
+
+/// Where the ball is, in the upper half of a picture, and over how many columns.
+struct Seen
+{
+    double column = 0.0;
+    int columns = 0;
+};
+
+Seen ballIn(const std::string& file)
+{
+    const osg::ref_ptr<osg::Image> picture = osgDB::readRefImageFile(file);
+    REQUIRE(picture);
+    Seen seen;
+    for (int x = 0; x < picture->s(); ++x)
+    {
+        bool isHere = false;
+        for (int y = picture->t() / 2; y < picture->t() && !isHere; ++y)
+            isHere = std::abs(picture->getColor(unsigned(x), unsigned(y)).r() - 0.2f) > 0.02f;
+        seen.column += isHere ? x : 0.0;
+        seen.columns += isHere;
+    }
+    REQUIRE(seen.columns > 0);
+    seen.column /= seen.columns;
+    return seen;
+}
+
+/// Writes a path as osgviewer does: from x = -2 to 2 within 0.2 seconds, looking along +y.
+void writePath(const std::string& file)
+{
+    const osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    const osg::Quat ahead(osg::PI_2, osg::Vec3d(1.0, 0.0, 0.0));
+    path->insert(5.0, {osg::Vec3d(-2.0, -20.0, 0.0), ahead});
+    path->insert(5.2, {osg::Vec3d(2.0, -20.0, 0.0), ahead});
+    std::ofstream stream(file);
+    path->write(stream);
+}
+
+} // namespace
+
+TEST_CASE("osgraytrace --camera-path: the camera goes where it was recorded", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    writePath(folder / "way.path");
+    REQUIRE(osgraytrace(folder, kQuick + "--camera-path way.path --fps 10 -o p%d.png").exitCode ==
+            0);
+    CHECK(folder.fileNames() == Names{"ball.osgt", "p0.png", "p1.png", "p2.png", "way.path"});
+    REQUIRE(osgraytrace(folder, kQuick + "--eye 0 -20 0 --center 0 0 0 --up 0 0 1 -o still.png")
+                .exitCode == 0);
+    const double first = ballIn(folder / "p0.png").column, last = ballIn(folder / "p2.png").column;
+    CHECK(first - last > 5.0);
+    CHECK(ballIn(folder / "p1.png").column == Approx((first + last) / 2.0).margin(1.0));
+    CHECK((contents(folder / "p1.png") == contents(folder / "still.png")));
+
+    // Afterwards the path begins anew, as in osgviewer.
+    REQUIRE(osgraytrace(folder, kQuick + "--camera-path way.path --at 0.3 -o x.png").exitCode == 0);
+    CHECK((contents(folder / "x.png") == contents(folder / "p1.png")));
+
+    std::ofstream(folder / "bad.path") << "0 0 0 0 0 0 0 1\n\n1 0 0 zero 0 0 0 1\n";
+    const Outcome bad = osgraytrace(folder, kQuick + "--camera-path bad.path -o b.png");
+    CHECK(bad.exitCode == 2);
+    CHECK_THAT(bad.errors, Contains("cannot read bad.path: line 3 is not a time"));
+    CHECK(osgraytrace(folder, kQuick + "--camera-path none.path -o b.png").exitCode == 2);
+}
+
+TEST_CASE("osgraytrace --turntable: the camera goes around the centre", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    REQUIRE(osgraytrace(folder, kQuick + "--turntable 8 -o t%d.png").exitCode == 0);
+    CHECK(folder.fileNames().size() == 9);
+    const Seen before = ballIn(folder / "t0.png"), behind = ballIn(folder / "t4.png");
+    CHECK(before.column + behind.column == Approx(63.0).margin(1.0));
+    CHECK(ballIn(folder / "t2.png").column == Approx(31.5).margin(1.0));
+    CHECK(ballIn(folder / "t1.png").column < 31.0); // seen from the right, it is nearer
+    REQUIRE(osgraytrace(folder, kQuick + "--turntable -8 --at 0.04 -o back.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuick + "--turntable 8 --frames 7 -o on%d.png").exitCode == 0);
+    CHECK((contents(folder / "t7.png") == contents(folder / "on7.png")));
+    CHECK(ballIn(folder / "back.png").column == Approx(ballIn(folder / "t7.png").column));
+    REQUIRE(osgraytrace(folder, kQuick + "-o still.png").exitCode == 0);
+    CHECK((contents(folder / "t0.png") == contents(folder / "still.png")));
+}
+
+TEST_CASE("osgraytrace --shutter: what moves is blurred, in parts of pictures as well", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    const std::string picture = "ball.osgt --size 64 16 ";
+    REQUIRE(osgraytrace(folder, picture + "--passes 8 --at 1 --shutter 1 -o blur.png").exitCode ==
+            0);
+    REQUIRE(osgraytrace(folder, picture + "--passes 8 --shutter 1 -o rests.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, picture + "--passes 8 -o sharp.png").exitCode == 0);
+    const Seen sharp = ballIn(folder / "sharp.png"), blur = ballIn(folder / "blur.png");
+    CHECK((contents(folder / "rests.png") == contents(folder / "sharp.png")));
+    CHECK(blur.columns > 2 * sharp.columns);
+    CHECK(blur.column == Approx(31.5).margin(2.0));
+
+    const std::string open = picture + "--at 1 --shutter 1 --checkpoint ";
+    REQUIRE(osgraytrace(folder, open + "a.exr --passes 0:3").exitCode == 0);
+    REQUIRE(osgraytrace(folder, open + "b.exr --passes 3:8 --threads 1").exitCode == 0);
+    REQUIRE(osgraytrace(folder, "--merge a.exr b.exr -o merged.png").exitCode == 0);
+    CHECK((contents(folder / "merged.png") == contents(folder / "blur.png")));
+    const Outcome longer =
+        osgraytrace(folder, picture + "--at 1 --shutter 0.5 --checkpoint a.exr --passes 8");
+    CHECK(longer.exitCode == 3);
+    CHECK_THAT(longer.errors, Contains("shutter "));
+}
+
+TEST_CASE("osgraytrace: videos are made by ffmpeg, where it is", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    const std::string video = kQuick + "--frames 0:3 -o film.mp4 ";
+    const Outcome without =
+        osgraytrace(folder, video, "timeout() { shift; PATH=/nowhere \"$@\"; };");
+    CHECK(without.exitCode == 4);
+    CHECK_THAT(without.errors, Contains("videos need ffmpeg, which is not installed"));
+    if (std::system("command -v ffmpeg >/dev/null") != 0)
+    {
+        WARN("left out: there is no ffmpeg");
+        return;
+    }
+    REQUIRE(osgraytrace(folder, video + "-o f%d.png").exitCode == 0);
+    CHECK(folder.fileNames() ==
+          Names{"ball.osgt", "f0.png", "f1.png", "f2.png", "f3.png", "film.mp4"});
+    CHECK(contents(folder / "film.mp4").substr(4, 4) == "ftyp");
+    const Outcome thin = osgraytrace(folder, "ball.osgt --size 1 1 --frames 0:1 -o thin.webm");
+    CHECK(thin.exitCode == 4);
+    CHECK_THAT(thin.errors, Contains("cannot write thin.webm"));
+    CHECK_FALSE(std::filesystem::exists(folder / "thin.webm"));
+}
+
+TEST_CASE("osgraytrace: wrong usage of motion is named", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    writePath(folder / "way.path");
+    const std::pair<const char*, const char*> wrong[] = {
+        {"-o x.mp4", "a video needs --frames, --turntable or --camera-path"},
+        {"--frames 0:2 -o x.mp4 -o y.webm", "one -o FILE is a video at most"},
+        {"--frames 0:2 --skip-existing -o x.mp4", "--skip-existing excludes videos"},
+        {"--turntable 0 -o x.png", "a turn has at least one frame"},
+        {"--turntable 8 --camera-path way.path -o x.png", "--camera-path excludes --turntable"},
+        {"--camera-path way.path --eye 0 0 0 -o x.png", "excludes"},
+        {"--shutter -1 -o x.png", "--shutter"},
+        {"--shutter 1 --context egl -o x.png", "--shutter excludes --context"},
+        {"--aperture -1 -o x.png", "--aperture"},
+    };
+    for (const auto& [arguments, message] : wrong)
+    {
+        CAPTURE(arguments);
+        const Outcome outcome = osgraytrace(folder, kQuick + arguments);
+        CHECK(outcome.exitCode == 1);
+        CHECK_THAT(outcome.errors, Contains(message));
+    }
+    CHECK(folder.fileNames() == Names{"ball.osgt", "way.path"});
+}
