@@ -23,6 +23,7 @@ for preset in "$@"; do
     esac
 done
 
+PACKAGES+=(chromium) # A test opens the report's page in it.
 case ${CXX:-} in *clang*) PACKAGES+=(clang libclang-rt-14-dev) ;; esac
 install_packages
 

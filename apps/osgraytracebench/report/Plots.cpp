@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/Plots.h"
 
+#include "apps/osgraytracebench/report/Html.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,6 +70,19 @@ std::string svgPart(const std::string& document)
     return begin == std::string::npos ? std::string() : document.substr(begin);
 }
 
+/// Returns the plot with names that no other plot of the page has.
+std::string withOwnNames(std::string svg)
+{
+    static int plots = 0;
+    const std::string own = "p" + std::to_string(++plots) + "-";
+    for (const std::string start : {"id='", "id=\"", "href='#", "url(#"})
+    {
+        for (std::size_t at = svg.find(start); at != std::string::npos; at = svg.find(start, at))
+            svg.insert(at += start.size(), own);
+    }
+    return svg;
+}
+
 /// Holds powers of ten that enclose all values.
 struct Range
 {
@@ -92,10 +107,11 @@ struct Axes
 void writeAxes(std::ostream& script, const Axes& axes)
 {
     static int number = 0;
-    script << "set terminal svg size 800,440 font 'sans-serif,13' name 'plot" << ++number << "'\n"
+    script << "set terminal svg size 520,360 dynamic font 'sans-serif,14' name 'plot" << ++number
+           << "'\n"
            << "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid lc rgb "
               "'#dddddd'\n"
-           << "set key outside right top reverse Left samplen 2\nset style fill transparent solid "
+           << "unset key\nset style fill transparent solid "
               "0.2 noborder\n"
            << "set xlabel '" << axes.xLabel << "'\nset ylabel '" << axes.yLabel << "'\n"
            << "set xrange [" << 0.8 * axes.xs.low << ':' << 1.25 * axes.xs.high << "]\n"
@@ -116,12 +132,45 @@ void writeData(std::ostream& script, const Curve& curve, std::size_t c)
     script << "EOD\n";
 }
 
-int dashesOf(double slope)
+/// Returns the dashes of a guide, as lengths; none: a whole line.
+const char* dashesOf(double slope)
 {
-    if (slope < -2.5) return 4;
-    if (slope < -1.75) return 3;
-    if (slope < -1.25) return 2;
-    return slope < -0.8 ? 5 : 6;
+    if (slope < -2.5) return "9,3,2,3";
+    if (slope < -1.75) return "2,3";
+    if (slope < -1.25) return "4,4";
+    return slope < -0.8 ? "9,4" : "";
+}
+
+std::string gnuplotDashes(double slope)
+{
+    const std::string dashes = dashesOf(slope);
+    return dashes.empty() ? "1" : "(" + dashes + ")";
+}
+
+constexpr const char* kGuideColour = "#888888";
+
+std::string legendEntry(const std::string& colour, const std::string& more, const std::string& name)
+{
+    return "<li><svg viewBox=\"0 0 30 10\" aria-hidden=true><path d=\"M0 5H30\" stroke=\"" +
+           colour + "\" " + more + "/></svg>" + escaped(name) + "</li>";
+}
+
+/// Returns the legend as text, which wraps on narrow pages.
+std::string legend(const std::vector<Curve>& curves, const std::vector<Guide>& guides)
+{
+    std::string text = "<ul class=legend>";
+    std::size_t coloured = 0;
+    for (const Curve& curve : curves)
+    {
+        if (curve.exact) continue;
+        const std::string colour = kColours[coloured++ % std::size(kColours)];
+        text += legendEntry(colour, "stroke-width=\"3\"", curve.name);
+    }
+    for (const Guide& guide : guides)
+        text += legendEntry(kGuideColour,
+                            std::string("stroke-dasharray=\"") + dashesOf(guide.slope) + "\"",
+                            std::string("slope ") + guide.name);
+    return text + "</ul>";
 }
 
 void writeCurves(std::ostream& script, const std::vector<Curve>& curves)
@@ -140,8 +189,8 @@ void writeCurves(std::ostream& script, const std::vector<Curve>& curves)
         script << "$curve" << c << " using 1:3:4 with filledcurves lc rgb '" << colour
                << "' notitle, $curve" << c << " using 1:2 with "
                << (c > 0 && curves[c - 1].exact ? "points" : "linespoints lw 2")
-               << " pt 7 ps 0.5 lc rgb '" << colour << "' title '" << curves[c].name
-               << "' noenhanced" << (c + 1 < curves.size() ? ", " : "\n");
+               << " pt 7 ps 0.5 lc rgb '" << colour << "' notitle"
+               << (c + 1 < curves.size() ? ", " : "\n");
     }
 }
 
@@ -165,10 +214,12 @@ std::string plot(const std::vector<Curve>& curves, const std::vector<Guide>& gui
     script << "plot ";
     for (const Guide& guide : guides)
         script << axes.ys.high << "*(x/" << axes.xs.low << ")**(" << guide.slope
-               << ") with lines lw 1 dt " << dashesOf(guide.slope)
-               << " lc rgb '#888888' title 'slope " << guide.name << "', ";
+               << ") with lines lw 1 dt " << gnuplotDashes(guide.slope) << " lc rgb '"
+               << kGuideColour << "' notitle, ";
     writeCurves(script, curves);
-    return svgPart(gnuplot(script.str()));
+    const std::string svg = svgPart(gnuplot(script.str()));
+    if (svg.empty()) return {};
+    return "<figure class=plot>" + withOwnNames(svg) + legend(curves, guides) + "</figure>\n";
 }
 
 } // namespace

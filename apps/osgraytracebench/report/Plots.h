@@ -14,15 +14,15 @@ namespace osgRayTrace::bench
 bool haveGnuplot();
 
 /// Returns relMSE against seconds of lines of one scene, log-log, one standard error up and down,
-/// with guides of slope -2/3, -1, -3/2 and -2: an <svg> element.
+/// with guides of slope -2/3, -1, -3/2 and -2: a <figure> element with a legend.
 std::string errorPlot(const std::vector<const ReportLine*>& lines);
 
 /// Returns the mean squared error against the number of samples of the strategies of one case, with
-/// guides of slope -1, -3/2, -2 and -3: an <svg> element.
+/// guides of slope -1, -3/2, -2 and -3: a <figure> element.
 std::string samplerPlot(const std::vector<const SamplerLine*>& lines);
 
 /// Returns squared bias and variance against the number of passes, points over the lines of the
-/// formulas: an <svg> element.
+/// formulas: a <figure> element.
 std::string schedulePlot(const std::vector<ScheduleLine>& lines);
 
 } // namespace osgRayTrace::bench

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "apps/osgraytracebench/report/ReportPage.h"
 
+#include "apps/osgraytracebench/report/Html.h"
 #include "apps/osgraytracebench/report/Plots.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <locale>
 #include <sstream>
 
@@ -16,62 +16,9 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr const char* kStyle =
-    "body{font:15px/1.45 sans-serif;max-width:76em;margin:2em auto;padding:0 1em;color:#222}"
-    "table{border-collapse:collapse;margin:.8em 0}td,th{padding:.15em .6em;text-align:right;"
-    "border-bottom:1px solid "
-    "#ddd;white-space:nowrap}th{background:#f4f4f4}td:first-child,th:first-child,"
-    "td.l,th.l{text-align:left}img{image-rendering:pixelated;display:block}figure{display:inline-"
-    "block;"
-    "margin:0 .8em .8em 0;font-size:13px}.bad{color:#b00020;font-weight:bold}details{margin:.6em 0}"
-    ".wide{overflow-x:auto}";
-
-std::string escaped(const std::string& text)
-{
-    std::string result;
-    for (const char c : text)
-    {
-        switch (c)
-        {
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '&':
-            result += "&amp;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
-}
-
-std::string number(double value, const char* format = "%.3g")
-{
-    if (!std::isfinite(value)) return "&ndash;";
-    char text[40];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
-std::string withError(double value, double error)
-{
-    return number(value, "%.3f") + " &plusmn; " + number(error, "%.3f");
-}
-
-template <typename... Cells> std::string row(const char* cell, const Cells&... cells)
-{
-    std::string text = "<tr>";
-    for (const std::string& content : {std::string(cells)...})
-        text += std::string("<") + cell + ">" + content + "</" + cell + ">";
-    return text + "</tr>\n";
-}
+constexpr const char* kChecksTitle = "Checks";
+constexpr const char* kSamplersTitle = "Strategies of sampling an area light";
+constexpr const char* kSchedulesTitle = "Schedules of photon lookups";
 
 /// Returns the efficiency of the naive method on the line's scene and placement: relative to it
 /// results carry over to other machines.
@@ -86,58 +33,74 @@ double naiveEfficiency(const Report& report, const ReportLine& line)
     return std::nan("");
 }
 
+using Rows = std::vector<std::vector<std::string>>;
+
 std::string summaryTable(const Report& report, const std::vector<const ReportLine*>& lines)
 {
-    std::string table = "<div class=wide><table>" +
-                        row("th", "method", "where", "s", "M rays/s", "relMSE", "&plusmn;",
-                            "bias %", "in &sigma;", "99.9 % |x&minus;r|", "FLIP", "not finite",
-                            "1/(V T)", "by random", "s to 1e-1", "1e-2", "1e-3", "1e-4", "slope");
+    Rows rows;
     for (const ReportLine* line : lines)
     {
         const ReportRow& last = line->rows.back();
         std::array<std::string, kTargets.size()> times;
         for (std::size_t t = 0; t < times.size(); ++t)
             times[t] = number(line->secondsTo[t].value_or(std::nan("")));
-        table += row("td", escaped(line->method), escaped(line->placement), number(last.seconds),
-                     number(last.rays / last.seconds * 1e-6), number(last.relMse),
-                     number(last.relMseError, "%.2g"), number(last.biasPercent, "%+.2g"),
-                     number(last.biasPercent / last.biasError, "%+.1f"), number(last.percentile999),
-                     number(last.flip), std::to_string(last.nonFinite), number(last.efficiency),
-                     number(last.efficiency / naiveEfficiency(report, *line)), times[0], times[1],
-                     times[2], times[3], withError(line->slope, line->slopeError));
+        rows.push_back({escaped(line->method), escaped(line->placement), number(last.seconds),
+                        number(last.rays / last.seconds * 1e-6), number(last.relMse),
+                        number(last.relMseError, "%.2g"), number(last.biasPercent, "%+.2g"),
+                        number(last.biasPercent / last.biasError, "%+.1f"),
+                        number(last.percentile999), number(last.flip),
+                        std::to_string(last.nonFinite), number(last.efficiency),
+                        number(last.efficiency / naiveEfficiency(report, *line)), times[0],
+                        times[1], times[2], times[3], withError(line->slope, line->slopeError)});
     }
-    return table + "</table></div>\n";
+    return table({"method", "where", "s", "M rays/s", "relMSE", "&plusmn;", "bias %", "in &sigma;",
+                  "99.9 % |x&minus;r|", "FLIP", "not finite", "1/(V T)", "by random", "s to 1e-1",
+                  "s to 1e-2", "s to 1e-3", "s to 1e-4", "slope"},
+                 rows);
 }
 
 std::string allRows(const Report& report, const std::vector<const ReportLine*>& lines)
 {
-    std::string table =
-        "<details><summary>All rows</summary><div class=wide><table>" +
-        row("th", "method", "where", report.timed ? "budget s" : "passes", "seeds", "s",
-            "samples a pixel", "rays", "relMSE", "&plusmn;", "relMSE (r&sup2; + 0.01)", "MSE",
-            "bias %", "&plusmn;", "99.9 %", "FLIP", "not finite");
+    Rows rows;
     for (const ReportLine* line : lines)
     {
         for (const ReportRow& r : line->rows)
-            table +=
-                row("td", escaped(line->method), escaped(line->placement), number(r.budget),
-                    std::to_string(r.seeds), number(r.seconds), number(r.samples), number(r.rays),
-                    number(r.relMse), number(r.relMseError, "%.2g"), number(r.relMseFixed),
-                    number(r.mse), number(r.biasPercent, "%+.2g"), number(r.biasError, "%.2g"),
-                    number(r.percentile999), number(r.flip), std::to_string(r.nonFinite));
+            rows.push_back({escaped(line->method), escaped(line->placement), number(r.budget),
+                            std::to_string(r.seeds), number(r.seconds), number(r.samples),
+                            number(r.rays), number(r.relMse), number(r.relMseError, "%.2g"),
+                            number(r.relMseFixed), number(r.mse), number(r.biasPercent, "%+.2g"),
+                            number(r.biasError, "%.2g"), number(r.percentile999), number(r.flip),
+                            std::to_string(r.nonFinite)});
     }
-    return table + "</table></div></details>\n";
+    return "<details><summary>All rows</summary>" +
+           table({"method", "where", report.timed ? "budget s" : "passes", "seeds", "s",
+                  "samples a pixel", "rays", "relMSE", "&plusmn;", "relMSE (r&sup2; + 0.01)", "MSE",
+                  "bias %", "&plusmn;", "99.9 %", "FLIP", "not finite"},
+                 rows) +
+           "</details>\n";
 }
 
-std::string figure(const std::string& image, const std::string& caption)
+std::string figure(const std::string& images, const std::string& caption)
 {
-    return image.empty()
-               ? ""
-               : "<figure>" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+    if (images.empty()) return {};
+    return "<figure><div class=images>" + images + "</div><figcaption>" + caption +
+           "</figcaption></figure>\n";
+}
+
+std::string heading(const std::string& id, const std::string& title)
+{
+    return "<section id=\"" + escaped(id) + "\"><h2>" + escaped(title) + "</h2>\n";
+}
+
+bool hasLines(const Report& report, const std::string& scene)
+{
+    return std::any_of(report.lines.begin(), report.lines.end(),
+                       [&](const ReportLine& line) { return line.scene == scene; });
 }
 
 std::string sceneSection(const Report& report, const SceneThumbnails& pictures)
 {
+    if (!hasLines(report, pictures.scene)) return {};
     std::vector<const ReportLine*> lines, atOrigin;
     for (const ReportLine& line : report.lines)
     {
@@ -145,26 +108,24 @@ std::string sceneSection(const Report& report, const SceneThumbnails& pictures)
         lines.push_back(&line);
         if (line.placement == "origin") atOrigin.push_back(&line);
     }
-    if (lines.empty()) return {};
-    std::string text = "<h2>" + escaped(pictures.title) +
-                       "</h2>\n<p>Compared with: " + escaped(lines.front()->reference) +
+    std::string text = heading(pictures.scene, pictures.title) +
+                       "<p>Compared with: " + escaped(lines.front()->reference) +
                        ". Conversion and BVH: " + number(1e3 * lines.front()->buildSeconds) +
                        " ms, not in the times below.</p>\n";
     text += errorPlot(atOrigin) + summaryTable(report, lines) + allRows(report, lines);
-    text += figure(pictures.reference, "reference");
+    text += "<div class=pictures>\n" + figure(pictures.reference, "reference");
     for (const SceneThumbnails::Line& line : pictures.lines)
-    {
-        text += figure(line.picture, escaped(line.method) + ", " + line.budget);
-        text += figure(line.error, "its relative error");
-    }
-    return text;
+        text += figure(line.picture + line.error,
+                       escaped(line.method) + ", " + line.budget + ", and its relative error");
+    return text + "</div></section>\n";
 }
 
 std::string samplerSection(const Report& report)
 {
     if (report.samplers.empty()) return {};
     std::string text =
-        "<h2>Strategies of sampling an area light</h2>\n<p>Mean squared error of E/L at single "
+        heading("samplers", kSamplersTitle) +
+        "<p>Mean squared error of E/L at single "
         "receivers "
         "against N, the light samples of one pass: the paper's Figure 3 as numbers. \"ratio\" is "
         "[HeitzHill18]: the formula of the open light times the sampled share that arrives, with "
@@ -189,53 +150,57 @@ std::string samplerSection(const Report& report)
             if (line.strategy == "Sobol") sobol = line.points.back().mse * line.secondsPerSample;
         }
         text += "<h3>" + escaped(scene) + "</h3>\n" + samplerPlot(lines);
-        std::string head = "<tr><th>strategy</th>", body;
+        std::vector<std::string> headings{"strategy"};
         for (const SamplerPoint& point : lines.front()->points)
-            head += "<th>N = " + std::to_string(point.samples) + "</th>";
+            headings.push_back("N = " + std::to_string(point.samples));
+        for (const char* last : {"slope", "ns a sample", "MSE &times; s"})
+            headings.emplace_back(last);
+        Rows rows;
         for (const SamplerLine* line : lines)
         {
-            body += "<tr><td>" + escaped(line->strategy) + "</td>";
+            std::vector<std::string> cells{escaped(line->strategy)};
             for (const SamplerPoint& point : line->points)
-                body += "<td>" + number(point.mse) + "</td>";
-            body += "<td>" + withError(line->slope, line->slopeError) + "</td><td>" +
-                    number(1e9 * line->secondsPerSample) + "</td><td>" +
-                    number(line->points.back().mse * line->secondsPerSample / sobol) +
-                    "</td></tr>\n";
+                cells.push_back(number(point.mse));
+            cells.push_back(withError(line->slope, line->slopeError));
+            cells.push_back(number(1e9 * line->secondsPerSample));
+            cells.push_back(number(line->points.back().mse * line->secondsPerSample / sobol));
+            rows.push_back(cells);
         }
-        text += "<table>" + head +
-                "<th>slope</th><th>ns a sample</th><th>MSE &times; s</th></tr>\n" + body +
-                "</table>\n";
+        text += table(headings, rows);
     }
-    return text;
+    return text + "</section>\n";
 }
 
 std::string scheduleSection(const Report& report)
 {
     if (report.schedules.empty()) return {};
     std::string text =
-        "<h2>Schedules of photon lookups</h2>\n<p>SPPM on the floor of S6 with a first radius that "
+        heading("schedules", kSchedulesTitle) +
+        "<p>SPPM on the floor of S6 with a first radius that "
         "is known: squared bias and variance against the number of passes. Thin lines: what the "
         "recurrence of the global schedule [Knaus11] makes of the density's Laplacian and of "
         "independent photons; photons from Sobol points scatter less. LOCAL [Hachisuka08] is "
         "beside the lines of GLOBAL.</p>\n";
     text += schedulePlot(report.schedules);
-    text += "<table>" + row("th", "schedule", "passes", "squared bias", "by the formula",
-                            "variance", "by the formula");
+    Rows rows;
     for (const ScheduleLine& line : report.schedules)
     {
         for (const SchedulePoint& point : line.points)
-            text += row(
-                "td", escaped(line.schedule), std::to_string(point.passes),
-                number(point.biasSquare), number(point.biasSquare / point.exactBiasSquare, "%.3f"),
-                number(point.variance), number(point.variance / point.exactVariance, "%.3f"));
+            rows.push_back(
+                {escaped(line.schedule), std::to_string(point.passes), number(point.biasSquare),
+                 number(point.biasSquare / point.exactBiasSquare, "%.3f"), number(point.variance),
+                 number(point.variance / point.exactVariance, "%.3f")});
     }
-    return text + "</table>\n";
+    return text +
+           table({"schedule", "passes", "squared bias", "by the formula", "variance",
+                  "by the formula"},
+                 rows) +
+           "</section>\n";
 }
 
 std::string verdictSection(const std::vector<Verdict>& verdicts)
 {
     if (verdicts.empty()) return {};
-    std::string text = "<h2>Checks</h2>\n<details><summary>";
     std::size_t failed = 0;
     std::string list;
     for (const Verdict& verdict : verdicts)
@@ -244,8 +209,43 @@ std::string verdictSection(const std::vector<Verdict>& verdicts)
         list += std::string("<li") + (verdict.met ? ">" : " class=bad>FAILED: ") +
                 escaped(verdict.text) + "</li>\n";
     }
-    return text + std::to_string(verdicts.size()) + " checks, " + std::to_string(failed) +
-           " failed</summary><ul>" + list + "</ul></details>\n";
+    return heading("checks", kChecksTitle) + "<details class=checks" + (failed ? " open" : "") +
+           "><summary>" + std::to_string(verdicts.size()) + " checks, " + std::to_string(failed) +
+           " failed</summary><ul>" + list + "</ul></details></section>\n";
+}
+
+std::string contents(const Report& report, const std::vector<SceneThumbnails>& thumbnails,
+                     bool checked)
+{
+    std::string text = "<nav aria-label=Contents><ul>\n";
+    const auto add = [&](const std::string& id, const std::string& title)
+    { text += "<li><a href=\"#" + escaped(id) + "\">" + escaped(title) + "</a></li>\n"; };
+    if (checked) add("checks", kChecksTitle);
+    for (const SceneThumbnails& scene : thumbnails)
+        if (hasLines(report, scene.scene)) add(scene.scene, scene.title);
+    if (!report.samplers.empty()) add("samplers", kSamplersTitle);
+    if (!report.schedules.empty()) add("schedules", kSchedulesTitle);
+    return text + "</ul></nav>\n";
+}
+
+/// Returns the head of the page. Its policy lets a browser load nothing from elsewhere.
+std::string head()
+{
+    return "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
+           "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
+           "<meta http-equiv=Content-Security-Policy content=\"default-src 'none'; img-src data:; "
+           "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+           "<link rel=icon href=\"data:,\">\n<title>osgRayTrace: speed against error</title>\n"
+           "<style>\n" +
+           reportStyle() + "</style></head>\n";
+}
+
+std::string machineList(const Report& report)
+{
+    std::string text = "<dl class=machine>";
+    for (const auto& [name, value] : report.machine)
+        text += "<div><dt>" + escaped(name) + "</dt><dd>" + escaped(value) + "</dd></div>";
+    return text + "</dl>\n";
 }
 
 } // namespace
@@ -255,13 +255,8 @@ std::string reportPage(const Report& report, const std::vector<SceneThumbnails>&
 {
     std::ostringstream page;
     page.imbue(std::locale::classic());
-    page << "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>osgRayTrace: speed "
-            "against "
-            "error</title><style>"
-         << kStyle << "</style></head><body>\n<h1>osgRayTrace: speed against error</h1>\n<p>";
-    for (const auto& [name, value] : report.machine)
-        page << escaped(name) << ": " << escaped(value) << "<br>";
-    page << "</p>\n<p>Pictures " << report.width
+    page << head() << "<body>\n<h1>osgRayTrace: speed against error</h1>\n"
+         << machineList(report) << "<p>Pictures " << report.width
          << " pixels wide. relMSE = mean((x&minus;r)&sup2;/(r&sup2; + &epsilon;&sup2;)), &epsilon; "
             "= 1 % of the "
             "reference's mean luminance; a rendered reference's own variance is taken off. Each "
@@ -272,14 +267,17 @@ std::string reportPage(const Report& report, const std::vector<SceneThumbnails>&
          << ". Bias is that of the mean radiance, its &sigma; from the scatter of the pixels over "
             "the seeds. "
             "V: variance of a pixel, T: seconds. FLIP [Andersson20] at an exposure that brings the "
-            "reference's mean luminance to 0.4. Error maps: black 1e-4 and below, through red and "
-            "yellow to "
-            "white, 1 and above. Bands in plots: one standard error.</p>\n";
+            "reference's mean luminance to 0.4. Bands in plots: one standard error. Headings sort "
+            "their "
+            "table. Error maps show the relative error of each pixel:</p>\n"
+            "<div class=scale><i></i><span>&le; 1e-4</span><span>1e-2</span>"
+            "<span>&ge; 1</span></div>\n";
     if (!haveGnuplot()) page << "<p class=bad>gnuplot was not found: there are no plots.</p>\n";
-    page << verdictSection(verdicts);
+    page << contents(report, thumbnails, !verdicts.empty()) << verdictSection(verdicts);
     for (const SceneThumbnails& scene : thumbnails)
         page << sceneSection(report, scene);
-    page << samplerSection(report) << scheduleSection(report) << "</body></html>\n";
+    page << samplerSection(report) << scheduleSection(report) << "<script>\n"
+         << reportScript() << "</script></body></html>\n";
     return page.str();
 }
 

@@ -35,7 +35,8 @@ std::string base64(const std::string& bytes)
     return text;
 }
 
-std::string imageElement(const std::vector<float>& display, int width, int height)
+std::string imageElement(const std::vector<float>& display, int width, int height,
+                         const std::string& description)
 {
     osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("png");
     if (!writer) return {};
@@ -50,8 +51,8 @@ std::string imageElement(const std::vector<float>& display, int width, int heigh
         }
     std::ostringstream stream;
     if (!writer->writeImage(*image, stream).success()) return {};
-    return "<img width=\"" + std::to_string(kShownWidth) +
-           "\" alt=\"\" src=\"data:image/png;base64," + base64(stream.str()) + "\">";
+    return "<img width=\"" + std::to_string(kShownWidth) + "\" alt=\"" + description +
+           "\" src=\"data:image/png;base64," + base64(stream.str()) + "\">";
 }
 
 double luminanceOf(double r, double g, double b)
@@ -63,12 +64,12 @@ double luminanceOf(double r, double g, double b)
 
 std::string thumbnail(const Reference& reference)
 {
-    return imageElement(displayValues(reference), reference.width, reference.height);
+    return imageElement(displayValues(reference), reference.width, reference.height, "reference");
 }
 
 std::string thumbnail(const Pixels& pixels, const Reference& reference)
 {
-    return imageElement(displayValues(pixels, reference), pixels.width, pixels.height);
+    return imageElement(displayValues(pixels, reference), pixels.width, pixels.height, "picture");
 }
 
 std::string errorThumbnail(const Pixels& pixels, const Reference& reference)
@@ -86,7 +87,7 @@ std::string errorThumbnail(const Pixels& pixels, const Reference& reference)
         for (int c = 0; c < 3; ++c)
             display.push_back(static_cast<float>(std::clamp(3.0 * heat - c, 0.0, 1.0)));
     }
-    return imageElement(display, pixels.width, pixels.height);
+    return imageElement(display, pixels.width, pixels.height, "relative error");
 }
 
 } // namespace osgRayTrace::bench
