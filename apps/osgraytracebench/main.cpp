@@ -168,10 +168,12 @@ Run addTransport(CLI::App& mode)
     const auto json = addJson(mode);
     const auto options = std::make_shared<TransportOptions>();
     addNumber(mode, "--width", options->width, 8, 4096, "width of the pictures [pixels]");
-    addNumber(mode, "--seconds", options->seconds, 0.125, 86400.0, "budget of a picture [s]");
+    addNumber(mode, "--seconds", options->seconds, 0.125, 86400.0,
+              "budget of a picture [s of one thread]");
     addNumber(mode, "--seeds", options->seeds, 2, 64, "pictures of each method");
+    addNumber(mode, "--first-seed", options->firstSeed, 1, 1000000, "seed of the first picture");
     addNumber(mode, "--reference-seconds", options->referenceSeconds, 1.0, 86400.0,
-              "time for each reference that is rendered [s]");
+              "budget of each reference that is rendered [s of one thread]");
     mode.add_option("--only", options->only,
                     "scenes whose name holds this: two-spheres, ajar, window, city, ...");
     return [=] { return runRows([&](Rows& rows) { measureTransport(*options, rows); }, *json); };

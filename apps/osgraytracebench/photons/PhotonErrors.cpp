@@ -75,9 +75,9 @@ void measureScene(char letter, CornellKind kind, const std::string& file,
     const ReportScene scene = cornellScene(kind);
     const PreparedScene prepared =
         prepare(scene, atOrigin(), options.width, std::make_shared<Workers>());
-    const Reference reference = file.empty()
-                                    ? newReference(scene, prepared, options.referenceSeconds)
-                                    : storedReference(file, options.width, options.width);
+    const Reference reference =
+        file.empty() ? newReference(scene, prepared, {8, 0, options.referenceSeconds / 8})
+                     : storedReference(file, options.width, options.width);
     const std::string stem = std::string("error ") + letter + " ";
     if (file.empty())
         rows.push_back(

@@ -41,9 +41,9 @@ Reference formulaReference(const ReportScene& scene, int width, const engine::Wo
 Reference renderedReference(const ReportScene& scene, const PreparedScene& prepared,
                             const ReferencePlan& plan, const std::string& folder);
 
-/// Renders a reference of eight pictures in so many seconds, and takes nothing over from an older
-/// version of the program.
-Reference newReference(const ReportScene& scene, const PreparedScene& prepared, double seconds);
+/// Renders a reference, and takes nothing over from an older version of the program.
+Reference newReference(const ReportScene& scene, const PreparedScene& prepared,
+                       const ReferencePlan& plan);
 
 /// Returns the part of relMSE that the reference's own noise adds. floor: the radiance whose square
 /// is added to that of each pixel.

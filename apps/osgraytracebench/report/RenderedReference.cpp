@@ -135,15 +135,13 @@ Reference renderedReference(const ReportScene& scene, const PreparedScene& prepa
     return reference;
 }
 
-Reference newReference(const ReportScene& scene, const PreparedScene& prepared, double seconds)
+Reference newReference(const ReportScene& scene, const PreparedScene& prepared,
+                       const ReferencePlan& plan)
 {
     // The folder is its own, and removed: nothing is found in it.
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() / ("osgraytracebench-" + scene.name);
     std::filesystem::remove_all(folder);
-    ReferencePlan plan;
-    plan.seeds = 8;
-    plan.seconds = seconds / plan.seeds;
     const Reference reference = renderedReference(scene, prepared, plan, folder.string());
     std::filesystem::remove_all(folder);
     return reference;
