@@ -217,6 +217,35 @@ TEST_CASE("views: slices of depth are traced once an eye, and each writes its ow
     }
 }
 
+TEST_CASE("views: slices of depth are as sharp far from where the view has begun", "[gl]")
+{
+    // The camera of the last slice draws first, and is the reference for all of them.
+    const double size = 0.002;
+    const osg::Vec3d far(20000.0, 0.0, 0.0);
+    const auto pictureOf = [&](osg::Group* content)
+    {
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
+            osg::Matrixd::scale(size, size, size) * osg::Matrixd::translate(far));
+        place->addChild(squares());
+        content->addChild(place);
+        content->addChild(squares()); // what the view begins with
+        const osg::ref_ptr<osg::Group> slices = new DepthPartition({0.001, 10.0, 1000.0});
+        slices->addChild(content);
+        TestViewer view(kSize, kSize, slices.get());
+        view.look(osg::Vec3d(0.0, 0.0, 10.0));
+        view.frames();
+        const osg::Vec3d eye = far + osg::Vec3d(0.0, 0.0, 10.0) * size;
+        view.look(eye, far);
+        return view.frames(3);
+    };
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    const osg::ref_ptr<RayTracedScene> scene = tracedScene(empty.get());
+    scene->getSettings()->setPassesPerFrame(64);
+    const osg::ref_ptr<osg::Image> traced = pictureOf(scene.get());
+    const osg::ref_ptr<osg::Image> drawn = pictureOf(empty.get());
+    CHECK(differenceInside("slices-far", *drawn, *traced) < 0.004);
+}
+
 TEST_CASE("views: eyes and slices that workers trace come to the pictures of frame-locked ones",
           "[gl]")
 {

@@ -86,7 +86,13 @@ void SceneUpdater::recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, 
     if (!(nearDistance > 0.0 && distance > kOriginDistance * nearDistance)) return;
 
     std::lock_guard<std::mutex> lock(_recordedMutex);
-    if (camera == _recorded.camera) _recorded.asked.origin = eye;
+    // Slices of one picture are drawn by cameras of their own, and the reference camera may have
+    // the last slice. An origin at the nearest slice's eye serves them all. A camera elsewhere
+    // would take turns with the reference camera.
+    const bool serves = camera == _recorded.camera ||
+                        (_recorded.conditions && (eye - _recorded.conditions->eye).length() <=
+                                                     kOriginDistance * nearDistance);
+    if (serves) _recorded.asked.origin = eye;
 }
 
 void SceneUpdater::releaseGraph()

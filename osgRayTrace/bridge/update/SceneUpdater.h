@@ -45,8 +45,8 @@ public:
     bool isViewed() const;
 
     /// Records that the camera has drawn from eye with its near plane at nearDistance. One engine
-    /// origin has to serve near things and far ones, see kOriginDistance. Draw threads may call
-    /// this.
+    /// origin has to serve near things and far ones, see kOriginDistance. The origin follows the
+    /// reference camera, and cameras whose eye is near its eye. Draw threads may call this.
     void recordDrawn(const ObjectName& camera, const osg::Vec3d& eye, double nearDistance);
 
     /// Takes the settings over and redoes what changed in the graph, in the settings or in the
