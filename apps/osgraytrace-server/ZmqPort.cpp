@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace osgRayTrace::app
 {
@@ -102,10 +103,15 @@ bool ZmqPort::receive(std::string& viewer, engine::Bytes& message)
     return true;
 }
 
-void ZmqPort::send(const std::string& viewer, const engine::Bytes& message)
+void ZmqPort::send(const std::string& viewer, engine::Bytes&& message)
 {
     if (zmq_send(_socket, viewer.data(), viewer.size(), ZMQ_SNDMORE | ZMQ_DONTWAIT) < 0) return;
-    zmq_send(_socket, message.data(), message.size(), ZMQ_DONTWAIT);
+    // ZeroMQ frees the bytes when they are on their way, on a thread of its own.
+    auto* kept = new engine::Bytes(std::move(message));
+    const auto forget = [](void*, void* bytes) { delete static_cast<engine::Bytes*>(bytes); };
+    zmq_msg_t part;
+    zmq_msg_init_data(&part, kept->data(), kept->size(), forget, kept);
+    if (zmq_msg_send(&part, _socket, ZMQ_DONTWAIT) < 0) zmq_msg_close(&part);
 }
 
 void ZmqPort::wait(int milliseconds)

@@ -23,7 +23,7 @@ public:
     bool receive(std::string& viewer, engine::Bytes& message);
 
     /// Sends a message to a viewer; nothing if it is gone.
-    void send(const std::string& viewer, const engine::Bytes& message);
+    void send(const std::string& viewer, engine::Bytes&& message);
 
     /// Waits until a message comes, a signal comes, or the time [ms] is over.
     void wait(int milliseconds);

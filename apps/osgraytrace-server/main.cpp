@@ -55,8 +55,8 @@ int serve(const Options& options)
         std::cerr << kProgram
                   << ": whoever reaches this port may use this machine's processors and memory "
                      "(--secret-key)\n";
-    engine::TileServer server(workers, [&](const std::string& viewer, const engine::Bytes& message)
-                              { port.send(viewer, message); });
+    engine::TileServer server(workers, [&](const std::string& viewer, engine::Bytes&& message)
+                              { port.send(viewer, std::move(message)); });
     std::string viewer;
     engine::Bytes message;
     while (!receivedSignal)

@@ -38,10 +38,11 @@ bool readMilliseconds(const std::string& text, double& value)
     return true;
 }
 
-/// Returns whether an option is each node's own: nodes may have more or fewer processors.
+/// Returns whether an option is each node's own: nodes may have more or fewer processors, and
+/// render servers of their own.
 bool isOfOneNode(const std::string& option)
 {
-    return option == "threads" || option == "frame-budget";
+    return option == "threads" || option == "frame-budget" || option == "servers";
 }
 
 const RayTraceSettings::Option* findOption(const std::vector<RayTraceSettings::Option>& options,

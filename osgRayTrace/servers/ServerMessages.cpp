@@ -146,7 +146,7 @@ Bytes messageOf(const TileOrders& orders)
     return bytes;
 }
 
-Bytes messageOf(const TracedTiles& traced)
+Bytes messageOf(const TracedTiles& traced, const TracedTile* results)
 {
     Bytes bytes = begin(MessageKind::Traced, traced.tiles.size() * tileBytes(traced));
     WireWriter out(bytes);
@@ -155,7 +155,7 @@ Bytes messageOf(const TracedTiles& traced)
     out.array(traced.tiles);
     for (std::size_t i = 0; i < traced.tiles.size(); ++i)
     {
-        const TracedTile& tile = traced.results[i];
+        const TracedTile& tile = results[i];
         out.append(tile.rgba, sizeof tile.rgba);
         out(tile.counts);
         if (traced.depth) out.append(tile.depth, sizeof tile.depth);
@@ -288,24 +288,21 @@ bool takeMessage(WireReader& in, TracedTiles& traced)
     in(traced.depth, traced.surfaces, traced.samples, traced.photons);
     in.array(traced.tiles);
     const std::size_t each = tileBytes(traced) - sizeof(int32_t);
-    if (!in.good() || in.left() / each < traced.tiles.size()) return false;
-    traced.results.resize(traced.tiles.size());
-    for (TracedTile& tile : traced.results)
-    {
-        in.copy(tile.rgba, sizeof tile.rgba);
-        in(tile.counts);
-        if (traced.depth) in.copy(tile.depth, sizeof tile.depth);
-        if (traced.surfaces) in.copy(tile.surfaces, sizeof tile.surfaces);
-        if (traced.samples)
-        {
-            tile.samples.resize(kTilePixels);
-            in.copy(tile.samples.data(), kTilePixels * sizeof(SurfaceSample));
-        }
-        if (!traced.photons) continue;
-        tile.photons = std::make_unique<TilePhotons>();
-        takeFound(in, *tile.photons);
-    }
-    return in.good() && in.left() == 0;
+    return in.good() && in.left() / each >= traced.tiles.size();
+}
+
+bool takeTile(WireReader& in, const TracedTiles& traced, TracedTile& tile)
+{
+    in.copy(tile.rgba, sizeof tile.rgba);
+    in(tile.counts);
+    if (traced.depth) in.copy(tile.depth, sizeof tile.depth);
+    if (traced.surfaces) in.copy(tile.surfaces, sizeof tile.surfaces);
+    tile.samples.resize(traced.samples ? std::size_t(kTilePixels) : 0);
+    in.copy(tile.samples.data(), tile.samples.size() * sizeof(SurfaceSample));
+    if (!traced.photons) return in.good();
+    tile.photons = std::make_unique<TilePhotons>();
+    takeFound(in, *tile.photons);
+    return in.good();
 }
 
 } // namespace osgRayTrace::engine

@@ -95,6 +95,7 @@ struct TileOrders
     std::vector<TilePhotons> photons;
 };
 
+/// The tiles themselves follow.
 struct TracedTiles
 {
     uint64_t pass = 0;
@@ -102,7 +103,6 @@ struct TracedTiles
     double seconds = 0.0; ///< wall time in which the tiles were traced
     bool depth = false, surfaces = false, samples = false, photons = false;
     std::vector<int32_t> tiles; ///< fewer than wanted if the pass was dropped
-    std::vector<TracedTile> results;
 };
 
 Bytes messageOf(const Hello& hello);
@@ -112,7 +112,7 @@ Bytes messageOf(const Ready& ready);
 Bytes messageOf(const PassOrder& order);
 Bytes photonsMessage(uint64_t number, const HelpedPhotons& photons);
 Bytes messageOf(const TileOrders& orders);
-Bytes messageOf(const TracedTiles& traced);
+Bytes messageOf(const TracedTiles& traced, const TracedTile* results);
 Bytes sceneMessage(uint64_t number, const Bytes& scene);
 Bytes dropMessage(uint64_t pass);
 Bytes plainMessage(MessageKind kind); ///< Bye, Stranger
@@ -128,7 +128,10 @@ bool takeMessage(WireReader& in, PhotonList& list);
 bool takeMessage(WireReader& in, TileOrders& orders);
 bool takeMessage(WireReader& in, TracedTiles& traced);
 
-/// Reads what traced tiles belong to, and nothing of the tiles.
+/// Reads the next tile of such a message.
+bool takeTile(WireReader& in, const TracedTiles& traced, TracedTile& tile);
+
+/// Reads what traced tiles belong to, and nothing more.
 bool takeHead(WireReader& in, TracedTiles& traced);
 
 } // namespace osgRayTrace::engine

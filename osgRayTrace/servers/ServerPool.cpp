@@ -120,23 +120,24 @@ void ServerPool::Work::bring(const Arrived& arrival)
     WireReader in(arrival.message);
     MessageKind kind{};
     const HelpedPass& pass = order.pass;
-    const bool good = takeKind(in, kind) && takeMessage(in, traced) &&
-                      traced.depth == pass.wantsDepth &&
-                      traced.surfaces == (pass.wantsDepth && pass.wantsSurfaces) &&
-                      traced.samples == (pass.wantsDepth && pass.wantsSamples) &&
-                      traced.photons == (pass.photons.pass != nullptr);
+    bool good = takeKind(in, kind) && takeMessage(in, traced) && traced.depth == pass.wantsDepth &&
+                traced.surfaces == (pass.wantsDepth && pass.wantsSurfaces) &&
+                traced.samples == (pass.wantsDepth && pass.wantsSamples) &&
+                traced.photons == (pass.photons.pass != nullptr);
     std::vector<int32_t> missing = arrival.tiles;
+    TracedTile tile;
     for (std::size_t i = 0; good && i < traced.tiles.size(); ++i)
     {
+        good = takeTile(in, traced, tile);
         const auto wanted = std::find(missing.begin(), missing.end(), traced.tiles[i]);
-        if (wanted == missing.end()) continue;
+        if (!good || wanted == missing.end()) continue;
         missing.erase(wanted);
-        _tiles.bring(traced.tiles[i], traced.results[i]);
+        _tiles.bring(traced.tiles[i], tile);
     }
     const std::lock_guard<std::mutex> lock(_pool._mutex);
     _pool._traced += arrival.tiles.size() - missing.size();
-    for (const int32_t tile : missing)
-        await(tile);
+    for (const int32_t lostTile : missing)
+        await(lostTile);
     lose(missing);
     if (!good)
     {

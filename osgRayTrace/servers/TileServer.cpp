@@ -284,7 +284,7 @@ void TileServer::trace(Viewer& viewer)
     if (!tiles.empty()) viewer.tracer.trace(tiles, std::move(photons), results);
     _tiles += tiles.size();
     const double seconds = _now() - start;
-    auto result = std::make_move_iterator(results.begin());
+    const TracedTile* result = results.data();
     for (TileOrders& group : groups)
     {
         TracedTiles traced;
@@ -296,10 +296,9 @@ void TileServer::trace(Viewer& viewer)
         traced.surfaces = pass.wantsDepth && pass.wantsSurfaces;
         traced.samples = pass.wantsDepth && pass.wantsSamples;
         traced.photons = hasPhotons;
-        traced.results.assign(result, result + static_cast<std::ptrdiff_t>(group.tiles.size()));
-        result += static_cast<std::ptrdiff_t>(group.tiles.size());
         traced.tiles = std::move(group.tiles);
-        _send(viewer.name, messageOf(traced));
+        _send(viewer.name, messageOf(traced, result));
+        result += traced.tiles.size();
     }
 }
 

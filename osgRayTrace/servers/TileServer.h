@@ -18,7 +18,7 @@ namespace osgRayTrace::engine
 class TileServer
 {
 public:
-    using Send = std::function<void(const std::string& viewer, const Bytes& message)>;
+    using Send = std::function<void(const std::string& viewer, Bytes&& message)>;
 
     /// send: sends a message to a viewer, which may be gone. now: a clock [s], which tests replace.
     TileServer(std::shared_ptr<Workers> workers, Send send, std::function<double()> now = {});

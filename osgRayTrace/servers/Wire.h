@@ -5,14 +5,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace osgRayTrace::engine
 {
 
-using Bytes = std::vector<uint8_t>;
+/// Leaves the bytes that a vector grows by as they are: messages are written at once.
+template <class T> struct UnclearedAllocator : std::allocator<T>
+{
+    template <class U> struct rebind
+    {
+        using other = UnclearedAllocator<U>;
+    };
+    template <class U> void construct(U* place) { ::new (static_cast<void*>(place)) U; }
+    template <class U, class... Values> void construct(U* place, Values&&... values)
+    {
+        ::new (static_cast<void*>(place)) U(std::forward<Values>(values)...);
+    }
+};
+
+using Bytes = std::vector<uint8_t, UnclearedAllocator<uint8_t>>;
 
 /// The last enumerator of an enumeration that counts from 0: a specialisation for each that
 /// messages hold, with a member `value`.

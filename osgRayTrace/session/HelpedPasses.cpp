@@ -19,10 +19,14 @@ TileCounts SessionState::takeTile(const PassContext& context, const NextPass& pa
                                   const TracedTile& traced)
 {
     TileCounts counts = traced.counts;
-    TileRgba rgba;
-    std::copy(traced.rgba, traced.rgba + kTileBlocks, rgba);
+    const RgbaLanes* rgba = traced.rgba;
+    TileRgba changed;
     if (photons.active() && traced.photons)
-        takePhotons(tile, pass.number, *traced.photons, context.options.photonAlpha, rgba);
+    {
+        std::copy(rgba, rgba + kTileBlocks, changed);
+        takePhotons(tile, pass.number, *traced.photons, context.options.photonAlpha, changed);
+        rgba = changed;
+    }
     const bool hasSurfaces = context.wantsDepth && surfaces.view.width > 0;
     for (int b = 0; hasSurfaces && b < kTileBlocks; ++b)
         setBlock(film.tileX(tile) + laneX(b, 0), film.tileY(tile) + laneY(b, 0), traced.surfaces[b],

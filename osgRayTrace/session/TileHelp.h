@@ -53,6 +53,8 @@ struct TilePhotons
 /// A tile of such a pass.
 struct TracedTile
 {
+    TracedTile() {} // the arrays are written before they are read
+
     TileRgba rgba;
     TileCounts counts;
     float depth[kTilePixels];             ///< with wantsDepth

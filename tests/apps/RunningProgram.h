@@ -71,6 +71,7 @@ public:
     }
 
     void signal(int number) { kill(_process, number); }
+    pid_t process() const { return _process; }
 
     /// Returns the exit code, or minus the signal that ended the program.
     int wait()

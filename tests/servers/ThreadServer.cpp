@@ -113,7 +113,7 @@ std::unique_ptr<Link> ThreadServer::connect()
 
 void ThreadServer::run(const Fate& fate)
 {
-    const auto send = [this](const std::string&, const Bytes& message)
+    const auto send = [this](const std::string&, Bytes&& message)
     {
         const std::lock_guard<std::mutex> lock(_line->mutex);
         if (!_line->dead) _line->put(_line->toViewer, message);

@@ -24,8 +24,8 @@ struct Fixture
     std::vector<std::pair<std::string, Bytes>> sent;
     double seconds = 0.0;
     TileServer server{std::make_shared<Workers>(1),
-                      [this](const std::string& viewer, const Bytes& message)
-                      { sent.emplace_back(viewer, message); },
+                      [this](const std::string& viewer, Bytes&& message)
+                      { sent.emplace_back(viewer, std::move(message)); },
                       [this] { return seconds; }};
 
     MessageKind kindOfLast() const

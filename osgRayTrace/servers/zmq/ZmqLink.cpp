@@ -90,8 +90,7 @@ osgRayTraceOpenLink(const std::string& address, std::string& fault)
     setNumber(socket, ZMQ_LINGER, 0);
     setNumber(socket, ZMQ_SNDHWM, kQueued);
     setNumber(socket, ZMQ_RCVHWM, kQueued);
-    setNumber(socket, ZMQ_RECONNECT_IVL, 100);      // [ms]
-    setNumber(socket, ZMQ_RECONNECT_IVL_MAX, 1000); // [ms]
+    setNumber(socket, ZMQ_RECONNECT_IVL, 100); // [ms]
     const std::size_t hash = address.find('#');
     if (hash != std::string::npos) fault = setKeys(socket, address.substr(hash + 1));
     if (fault.empty() && zmq_connect(socket, address.substr(0, hash).c_str()) != 0)
