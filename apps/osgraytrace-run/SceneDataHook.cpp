@@ -6,6 +6,8 @@
 #include "RunReport.h"
 #include "ToggleKey.h"
 
+#include <osgRayTrace/SceneLights>
+
 #include "osgRayTrace/base/NeverDestroyed.h"
 
 #include <osg/NodeVisitor>
@@ -65,6 +67,10 @@ osg::ref_ptr<RayTracedScene> tracedScene(osg::Node& node)
     scene = new RayTracedScene;
     scene->setName("osgraytrace-run");
     scene->addChild(&node);
+    SceneLights lights;
+    lights.readVariables();
+    const std::string problem = lights.addTo(*scene);
+    if (!problem.empty()) OSG_WARN << "osgRayTrace: " << problem << std::endl;
     known = scene;
     reportAtExit(*scene);
     return scene;

@@ -31,6 +31,8 @@ constexpr const char* kHelp =
     "\n"
     "Environment:\n"
     "  OSGRAYTRACE_...         settings: osgraytrace --list-options names each one's variable\n"
+    "  OSGRAYTRACE_ENVIRONMENT, OSGRAYTRACE_SUN=AZIMUTH:ELEVATION, OSGRAYTRACE_HEADLIGHT=on|off\n"
+    "                          lights, as osgraytrace's options of these names\n"
     "  OSGRAYTRACE_TOGGLE_KEY  key that switches ray tracing off and on: F1 to F12, or a character "
     "(F9)\n"
     "\n"

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "Camera.h"
 
-#include "CameraPath.h"
+#include "apps/common/CameraPath.h"
 #include "apps/common/Failure.h"
+
+#include <filesystem>
 
 namespace osgRayTrace::app
 {
@@ -12,7 +14,8 @@ namespace
 {
 
 /// Returns the placement of the camera that the options name; nothing if they name none.
-std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scene)
+std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scene,
+                                         const Placement& home)
 {
     if (options.camera.empty()) return std::nullopt;
     std::string names;
@@ -21,8 +24,10 @@ std::optional<Placement> chosenPlacement(const Options& options, osg::Node& scen
         if (camera.name == options.camera) return camera.placement;
         names += (names.empty() ? "" : ", ") + camera.name;
     }
+    if (std::filesystem::exists(options.camera))
+        return withOptions(home, readViewFile(options.camera));
     throw Failure(kUsage, "--camera " + options.camera + ": the model's cameras are " +
-                              (names.empty() ? "none" : names));
+                              (names.empty() ? "none" : names) + ", and there is no such file");
 }
 
 /// Returns where the turntable has a placement at the options' time.
@@ -30,8 +35,8 @@ Placement turnedPlacement(const Options& options, const Placement& placement, co
 {
     if (options.turnFrames == 0) return placement;
     const double turns = options.at * options.framesPerSecond / options.turnFrames;
-    return turned(placement, options.center.value_or(home.center), options.up.value_or(home.up),
-                  2.0 * osg::PI * turns);
+    return turned(placement, options.view.center.value_or(home.center),
+                  options.view.up.value_or(home.up), 2.0 * osg::PI * turns);
 }
 
 } // namespace
@@ -40,25 +45,19 @@ Placement homePlacement(const Options& options, osg::Node& scene)
 {
     const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
     return homePlacement(scene, whole.fullWidth, whole.fullHeight,
-                         options.fovyDegrees.value_or(kOsgViewerFovyDegrees));
+                         options.view.fovyDegrees.value_or(kOsgViewerFovyDegrees));
 }
 
 Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
 {
     if (options.cameraPath)
     {
-        const double fovyDegrees = options.fovyDegrees.value_or(kOsgViewerFovyDegrees);
-        return cameraAt(placementOn(*options.cameraPath, options.at, fovyDegrees), scene,
-                        options.aspect());
+        const Placement place = placementOn(*options.cameraPath, options.at, kOsgViewerFovyDegrees);
+        return cameraAt(withOptions(place, options.view), scene, options.aspect());
     }
-    const std::optional<Placement> chosen = chosenPlacement(options, scene);
+    const std::optional<Placement> chosen = chosenPlacement(options, scene, home);
     const std::optional<Placement> stored = chosen ? chosen : storedPlacement(scene);
-    Placement placement = stored.value_or(home);
-    placement.eye = options.eye.value_or(placement.eye);
-    placement.center = options.center.value_or(placement.center);
-    placement.up = options.up.value_or(placement.up);
-    placement.fovyDegrees = options.fovyDegrees.value_or(placement.fovyDegrees);
-    if (options.fovyDegrees) placement.height = 0.0;
+    const Placement placement = withOptions(stored.value_or(home), options.view);
     const std::string problem = whyNoView(placement, "--");
     if (!problem.empty()) throw Failure(kUsage, problem);
     return cameraAt(turnedPlacement(options, placement, home), scene, options.aspect());

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "MotionOptions.h"
 
-#include "CameraPath.h"
 #include "NumberChecks.h"
 #include "Video.h"
+#include "apps/common/CameraPath.h"
 #include "apps/common/Failure.h"
 
 #include <algorithm>

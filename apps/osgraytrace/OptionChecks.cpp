@@ -88,7 +88,7 @@ void checkParts(const Options& options)
     exclude("--merge", "--context", options.context != Context::None);
     exclude("--merge", "--names", options.names);
     exclude("--merge", "--crop", options.crop.has_value());
-    exclude("--merge", "lights", options.lights.any() || options.headlight.has_value());
+    exclude("--merge", "lights", options.lights.any() || options.lights.headlight.has_value());
     for (const auto& [name, value] : options.assignments)
         exclude("--merge", ("--" + name).c_str(), name != "exposure");
     if (options.outputs.empty() && options.checkpoint.empty())

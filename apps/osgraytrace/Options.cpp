@@ -35,7 +35,7 @@ struct RawOptions
     std::vector<int> size;
     std::vector<int> crop;
     std::vector<double> eye, center, up;
-    double fovyDegrees = 0.0;
+    double fovyDegrees = 0.0, height = 0.0;
     std::string context;
     RawMotion motion;
     std::vector<double> sun;
@@ -153,8 +153,10 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                    "height")
         ->option_text("X Y W H")
         ->expected(4);
-    app.add_option("--camera", options.camera, "Camera of the model, by its name")
-        ->option_text("NAME");
+    app.add_option("--camera", options.camera,
+                   "Camera of the model, by its name; or a file of the following options, as "
+                   "osgraytraceviewer's key E writes it")
+        ->option_text("NAME|FILE");
     app.add_option("--eye", raw.eye, "Position of the camera")
         ->option_text("X Y Z")
         ->expected(3)
@@ -171,6 +173,11 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
                    "Vertical field of view; by default the view is osgviewer's")
         ->option_text("DEGREES")
         ->check(between(0.0, 180.0, "an angle between 0 and 180"));
+    app.add_option("--parallel", raw.height,
+                   "Makes the view parallel: a plan that shows so much from bottom to top")
+        ->option_text("HEIGHT")
+        ->excludes("--fovy")
+        ->check(positive());
 
     addLightOptions(app, options, raw);
     addMotionOptions(app, options, raw.motion);
@@ -251,18 +258,19 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         options.height = raw.size[1];
     }
     if (!raw.crop.empty()) applyCrop(raw.crop, options);
-    if (!raw.eye.empty()) options.eye = vectorOf(raw.eye);
-    if (!raw.center.empty()) options.center = vectorOf(raw.center);
-    if (!raw.up.empty()) options.up = vectorOf(raw.up);
-    if (app.count("--fovy")) options.fovyDegrees = raw.fovyDegrees;
+    if (!raw.eye.empty()) options.view.eye = vectorOf(raw.eye);
+    if (!raw.center.empty()) options.view.center = vectorOf(raw.center);
+    if (!raw.up.empty()) options.view.up = vectorOf(raw.up);
+    if (app.count("--fovy")) options.view.fovyDegrees = raw.fovyDegrees;
+    if (app.count("--parallel")) options.view.height = raw.height;
     applyMotion(app, raw.motion, options);
     if (!raw.sun.empty())
     {
         if (std::abs(raw.sun[1]) > 90.0)
             throw Failure(kUsage, "--sun: the elevation is from -90 to 90 degrees");
-        options.lights.sun = Sun{raw.sun[0], raw.sun[1]};
+        options.lights.sun = SceneLights::Sun{raw.sun[0], raw.sun[1]};
     }
-    if (!raw.headlight.empty()) options.headlight = raw.headlight == "on";
+    if (!raw.headlight.empty()) options.lights.headlight = raw.headlight == "on";
     if (raw.context == "osmesa") options.context = Context::OsMesa;
     if (raw.context == "egl") options.context = Context::Egl;
 }
@@ -284,6 +292,7 @@ std::optional<Options> parseOptions(int argc, char** argv)
 {
     Options options;
     options.settings = new RayTraceSettings;
+    options.lights.readVariables();
     RawOptions raw;
 
     CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",

@@ -3,9 +3,10 @@
 #pragma once
 
 #include "Frames.h"
-#include "apps/common/AddedLights.h"
+#include "apps/common/ViewText.h"
 
 #include <osgRayTrace/RayTraceSettings>
+#include <osgRayTrace/SceneLights>
 
 #include <osg/AnimationPath>
 #include <osg/Vec3d>
@@ -43,18 +44,14 @@ struct Options
 
     // The following members describe the view; members that are not given are taken from the scene:
     // see Camera.h.
-    std::string camera; ///< name of a camera of the scene; empty: none is asked for
-    std::optional<osg::Vec3d> eye;
-    std::optional<osg::Vec3d> center;
-    std::optional<osg::Vec3d> up;
-    std::optional<double> fovyDegrees;
+    std::string camera; ///< name of a camera of the scene, or a file; empty: none is asked for
+    ViewOptions view;
 
     osg::ref_ptr<osg::AnimationPath> cameraPath; ///< null: the view stands
     int turnFrames = 0;   ///< frames of a turn around the view's centre; 0: it stands
     double shutter = 0.0; ///< time that the shutter is open [s]; 0: pictures are of a moment
 
-    AddedLights lights;            ///< beside those of the models
-    std::optional<bool> headlight; ///< nothing: on unless lights are added
+    SceneLights lights; ///< beside those of the models
 
     double at = 0.0;                  ///< time that the scene is shown at [s]
     std::optional<FrameRange> frames; ///< nothing: one picture
@@ -92,9 +89,6 @@ struct Options
 
     /// Returns whether the view moves with the time.
     bool hasMovingView() const { return cameraPath || turnFrames != 0; }
-
-    /// Returns whether scenes without a light of number 0 get one at the eye.
-    bool hasHeadlight() const { return headlight.value_or(!lights.any()); }
 
     /// Returns whether the passes are part of a picture that is made elsewhere, or at other times.
     bool isPart() const { return !checkpoint.empty() || firstPass > 0 || mpi; }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "PictureTexts.h"
 
+#include "apps/common/ViewText.h"
+
 #include <osgRayTrace/Version>
 
 #include <charconv>
@@ -18,24 +20,6 @@ std::string textOf(double value)
     char buffer[64];
     const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
     return std::string(buffer, result.ptr);
-}
-
-std::string textOf(const osg::Vec3d& vector)
-{
-    return textOf(vector.x()) + ' ' + textOf(vector.y()) + ' ' + textOf(vector.z());
-}
-
-/// Returns the options of osgraytrace that place the camera; without --fovy for parallel views.
-std::string optionsOf(const Camera& camera)
-{
-    osg::Vec3d eye, center, up;
-    camera.view.getLookAt(eye, center, up);
-    std::string text =
-        "--eye " + textOf(eye) + " --center " + textOf(center) + " --up " + textOf(up);
-    double fovy = 0.0, aspect = 0.0, nearest = 0.0, farthest = 0.0;
-    if (camera.projection.getPerspective(fovy, aspect, nearest, farthest))
-        text += " --fovy " + textOf(fovy);
-    return text;
 }
 
 /// Returns the options that crop the picture; empty if it is whole.
@@ -63,7 +47,7 @@ std::map<std::string, std::string> pictureTexts(const Options& options, const Ca
         {"osgRayTrace.integrator", statistics.integrator},
         {"osgRayTrace.passes", std::to_string(statistics.passes)},
         {"osgRayTrace.seed", std::to_string(options.settings->getSeed())},
-        {"osgRayTrace.camera", optionsOf(camera) + cropOf(options)},
+        {"osgRayTrace.camera", viewText(camera.view, camera.projection) + cropOf(options)},
     };
     if (std::isfinite(statistics.relativeError))
         texts["osgRayTrace.error"] = textOf(statistics.relativeError);

@@ -113,7 +113,7 @@ void setUp(osgViewer::Viewer& viewer, const Options& options, RayTracedScene& tr
 {
     viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     viewer.setSceneData(&traced);
-    if (!options.hasHeadlight()) darken(*viewer.getLight());
+    if (!options.lights.hasHeadlight()) darken(*viewer.getLight());
     osg::Camera* master = viewer.getCamera();
     master->setGraphicsContext(createContext(options).get());
     master->setViewport(0, 0, options.width, options.height);

@@ -38,7 +38,7 @@ osg::ref_ptr<Renderer> newRenderer(const Options& options, TimedScene& shown, co
     renderer->setViewMatrix(camera.view);
     renderer->setProjectionMatrix(camera.projection);
     renderer->setClearColor(camera.clearColor);
-    renderer->setHeadlight(options.hasHeadlight());
+    renderer->setHeadlight(options.lights.hasHeadlight());
     renderer->setSize(options.width, options.height);
     renderer->setSettings(options.settings.get());
     renderer->setWholePasses(options.isPart());

@@ -48,7 +48,7 @@ struct Animation
 {
     explicit Animation(const Options& asked) : options(asked)
     {
-        const osg::ref_ptr<osg::Node> scene = withLights(readScene(asked.models), asked.lights);
+        const osg::ref_ptr<osg::Node> scene = lit(readScene(asked.models), asked.lights);
         takeSettingsOf(*scene, options);
         shown = std::make_unique<TimedScene>(options, scene);
         // Particles depend on all frames before; all else that moves, on the time.

@@ -42,7 +42,7 @@ void help(Options options, Group& group)
 {
     try
     {
-        const osg::ref_ptr<osg::Node> scene = readScene(options.models);
+        const osg::ref_ptr<osg::Node> scene = lit(readScene(options.models), options.lights);
         takeSettingsOf(*scene, options);
         TimedScene shown(options, scene);
         shown.clock.goTo(options.at);

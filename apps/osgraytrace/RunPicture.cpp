@@ -76,6 +76,16 @@ TimedScene::TimedScene(const Options& options, const osg::ref_ptr<osg::Node>& ti
 {
 }
 
+osg::ref_ptr<osg::Node> lit(const osg::ref_ptr<osg::Node>& scene, const SceneLights& lights)
+{
+    if (!lights.any()) return scene;
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(scene);
+    const std::string problem = lights.addTo(*group);
+    if (!problem.empty()) throw Failure(kCannotLoad, problem);
+    return group;
+}
+
 void takeSettingsOf(osg::Node& scene, Options& options)
 {
     const osg::ref_ptr<RayTracedScene> stored = storedScene(scene);
@@ -159,7 +169,7 @@ int runPicture(Options options, Group* group)
     osg::ref_ptr<osg::Image> reference;
     if (!options.reference.empty())
         reference = readReference(options.reference, options.width, options.height);
-    const osg::ref_ptr<osg::Node> scene = withLights(readScene(options.models), options.lights);
+    const osg::ref_ptr<osg::Node> scene = lit(readScene(options.models), options.lights);
     takeSettingsOf(*scene, options);
     TimedScene shown(options, scene);
 

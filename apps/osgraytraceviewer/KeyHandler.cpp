@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT
 #include "KeyHandler.h"
 
+#include "FreeName.h"
 #include "ShownPlacement.h"
 
 #include "apps/common/DrawnParts.h"
 #include "apps/common/Failure.h"
 #include "apps/common/ImageFile.h"
+#include "apps/common/Output.h"
 #include "apps/common/SceneNames.h"
+#include "apps/common/ViewText.h"
 
 #include <osgRayTrace/RayIntersector>
 
 #include <osg/Notify>
-#include <osgDB/FileUtils>
 #include <osgUtil/IntersectionVisitor>
 
 #include <string>
@@ -43,17 +45,6 @@ void cycle(RayTraceSettings& settings, const std::string& name)
 int lowerCase(int key)
 {
     return key >= 'A' && key <= 'Z' ? key - 'A' + 'a' : key;
-}
-
-std::string freeFileName()
-{
-    std::string name;
-    int number = 0;
-    do
-    {
-        name = "osgraytrace-" + std::to_string(++number) + ".exr";
-    } while (osgDB::fileExists(name));
-    return name;
 }
 
 } // namespace
@@ -106,6 +97,12 @@ bool KeyHandler::press(const osgGA::GUIEventAdapter& event, osgViewer::View* vie
     case 'c':
         writeScreenshot();
         return true;
+    case 'C':
+        _windowPicture->want();
+        return true;
+    case 'E':
+        writeView(view);
+        return true;
     case 'o':
         printObject(event, view);
         return true;
@@ -140,7 +137,7 @@ void KeyHandler::writeScreenshot() const
         OSG_WARN << "osgraytraceviewer: there is no ray traced picture yet" << std::endl;
         return;
     }
-    const std::string name = freeFileName();
+    const std::string name = freeName(".exr");
     try
     {
         writeImageFile(name, *image);
@@ -148,6 +145,25 @@ void KeyHandler::writeScreenshot() const
         if (const auto parts = partsDrawnByOsg(_scene->getDrawable()->getStatistics()))
             OSG_NOTICE << ", which lacks " << parts << " parts of the scene that OpenGL draws";
         OSG_NOTICE << std::endl;
+    }
+    catch (const Failure& failure)
+    {
+        OSG_WARN << "osgraytraceviewer: " << failure.what() << std::endl;
+    }
+}
+
+/// Prints the view as options of osgraytrace and of this viewer, and writes it to a file.
+void KeyHandler::writeView(const osgViewer::View* view)
+{
+    if (!view) return;
+    const osg::Camera& camera = *view->getCamera();
+    const std::string text = viewText(camera.getViewMatrix(), camera.getProjectionMatrix());
+    const std::string name = freeName(".view");
+    OSG_NOTICE << "osgraytraceviewer: " << text << std::endl;
+    try
+    {
+        writeText(name, text + '\n');
+        OSG_NOTICE << "osgraytraceviewer: wrote " << name << ", for --camera" << std::endl;
     }
     catch (const Failure& failure)
     {
@@ -197,6 +213,9 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("o", "Print the names of what is under the mouse");
     usage.addKeyboardMouseBinding("v", "Next camera of the model");
     usage.addKeyboardMouseBinding("c", "Write the picture's radiance to osgraytrace-N.exr");
+    usage.addKeyboardMouseBinding("C", "Write what the window shows to osgraytrace-N.png");
+    usage.addKeyboardMouseBinding(
+        "E", "Print the view as options, and write it to osgraytrace-N.view for --camera");
 }
 
 } // namespace osgRayTrace::app

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "WindowPicture.h"
+
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/ApplicationUsage>
@@ -18,7 +20,10 @@ namespace osgRayTrace::app
 class KeyHandler : public osgGA::GUIEventHandler
 {
 public:
-    explicit KeyHandler(RayTracedScene* scene) : _scene(scene) {}
+    explicit KeyHandler(RayTracedScene* scene) : _scene(scene), _windowPicture(new WindowPicture) {}
+
+    /// Returns what has to be a final draw callback of the view's camera.
+    WindowPicture* windowPicture() { return _windowPicture.get(); }
 
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
@@ -33,10 +38,12 @@ private:
     bool press(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
     void freeze(osgViewer::View* view);
     void writeScreenshot() const;
+    static void writeView(const osgViewer::View* view);
     void showNextCamera(osgViewer::View* view);
     static void printObject(const osgGA::GUIEventAdapter& event, osgViewer::View* view);
 
     osg::ref_ptr<RayTracedScene> _scene;
+    osg::ref_ptr<WindowPicture> _windowPicture;
     bool _frozen = false;
     std::size_t _camera = 0; ///< number of the model's camera that is shown next
     std::set<int>

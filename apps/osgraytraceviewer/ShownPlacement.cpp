@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ShownPlacement.h"
 
+#include <osgGA/KeySwitchMatrixManipulator>
+
 #include <algorithm>
 
 namespace osgRayTrace::app
@@ -11,6 +13,7 @@ void showPlacement(const Placement& placement, osg::Node& scene, osgViewer::View
 {
     osgGA::CameraManipulator* manipulator = view.getCameraManipulator();
     if (!manipulator) return;
+    auto* switched = dynamic_cast<osgGA::KeySwitchMatrixManipulator*>(manipulator);
     // The trackball turns around the scene's middle, or around the point of the line of sight
     // nearest to it.
     const osg::Vec3d sight = placement.center - placement.eye;
@@ -18,7 +21,7 @@ void showPlacement(const Placement& placement, osg::Node& scene, osgViewer::View
     const double distance = std::max((middle - placement.eye) * sight, 1.0);
     manipulator->setHomePosition(placement.eye, placement.eye + sight * distance, placement.up);
     manipulator->setAutoComputeHomePosition(false);
-    manipulator->home(0.0);
+    (switched ? switched->getCurrentMatrixManipulator() : manipulator)->home(0.0);
 
     osg::Camera& camera = *view.getCamera();
     const osg::Viewport* viewport = camera.getViewport();

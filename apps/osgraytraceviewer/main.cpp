@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "CaveViewer.h"
 #include "KeyHandler.h"
-#include "ShownPlacement.h"
 #include "SignalledViewer.h"
 #include "StatusLine.h"
+#include "ViewerOptions.h"
 
 #include "apps/common/ModelFiles.h"
 #include "apps/common/PluginPath.h"
 #include "apps/common/Program.h"
 #include "apps/common/StoredScene.h"
-#include "apps/common/StoredView.h"
 
 #include <osgRayTrace/RayTracedScene>
 
@@ -18,13 +17,11 @@
 #include <osg/Group>
 #include <osgDB/FileNameUtils>
 #include <osgGA/StateSetManipulator>
-#include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <cstdlib>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +50,7 @@ void describe(osg::ApplicationUsage& usage)
             (option.name == kMaxPasses ? kPasses + std::string(" or ") : "") + "--" + option.name +
                 " <" + option.range + ">",
             option.help, settings->get(option.name));
+    describeView(usage);
     describeCave(usage);
 }
 
@@ -100,6 +98,7 @@ void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* status
     viewer.addEventHandler(new osgViewer::WindowSizeHandler);
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
+    viewer.addEventHandler(new osgViewer::RecordCameraPathHandler);
     viewer.addEventHandler(new osgViewer::HelpHandler(usage));
 }
 
@@ -110,14 +109,6 @@ std::string titleOf(const std::vector<std::string>& models)
     for (const std::string& model : models)
         title += (title.empty() ? "" : ", ") + osgDB::getSimpleFileName(model);
     return title;
-}
-
-/// Sets the view and background that the scene brings with it, if any.
-void showAsStored(osgViewer::Viewer& viewer, osg::Node& scene)
-{
-    if (const auto color = storedClearColor(scene)) viewer.getCamera()->setClearColor(*color);
-    if (const std::optional<Placement> placement = storedPlacement(scene))
-        showPlacement(*placement, scene, viewer);
 }
 
 /// Holds models with the ray traced scene that they are in.
@@ -157,16 +148,20 @@ Assignments wallSettings(Assignments assignments)
 }
 
 int show(osgViewer::Viewer& viewer, const Models& models, const std::string& title,
-         osg::ApplicationUsage* usage)
+         const ViewerOptions& options, osg::ApplicationUsage* usage)
 {
     const auto& [root, scene] = models;
+    const std::string problem = options.lights.addTo(*scene);
+    if (!problem.empty()) throw Failure(kCannotLoad, problem);
     const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene.get());
     osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get(), keys.get());
     root->addChild(statusLine->camera());
 
     viewer.setSceneData(root.get());
-    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
-    showAsStored(viewer, *root);
+    addManipulators(viewer, options);
+    if (const auto color = storedClearColor(*root)) viewer.getCamera()->setClearColor(*color);
+    showView(viewer, *root, options);
+    viewer.getCamera()->addFinalDrawCallback(keys->windowPicture());
     addHandlers(viewer, keys.get(), statusLine.get(), usage);
     viewer.realize();
     osgViewer::Viewer::Windows windows;
@@ -192,11 +187,13 @@ int run(int argc, char** argv)
     const bool help = arguments.read("-h") || arguments.read("--help");
     const Assignments assignments = readSettings(arguments);
     const CaveOptions cave = readCaveOptions(arguments);
+    const ViewerOptions view = readViewerOptions(arguments);
     SignalledViewer viewer(arguments);
     if (help)
     {
         osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
         const osg::ref_ptr<KeyHandler> keys = new KeyHandler(none.get());
+        addManipulators(viewer, view);
         addHandlers(viewer, keys.get(), new StatusLine(none.get(), keys.get()), &usage);
         viewer.getUsage(usage);
         usage.write(std::cout, osg::ApplicationUsage::COMMAND_LINE_OPTION |
@@ -215,7 +212,7 @@ int run(int argc, char** argv)
         readModels(names, cave.file.empty() ? assignments : wallSettings(assignments));
     const std::string title = titleOf(names);
     if (!cave.file.empty()) return runCave(cave, models.root.get(), models.scene.get(), title);
-    return show(viewer, models, title, &usage);
+    return show(viewer, models, title, view, &usage);
 }
 
 } // namespace

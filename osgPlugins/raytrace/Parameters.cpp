@@ -5,6 +5,7 @@
 #include <sstream>
 
 using osgRayTrace::RayTraceSettings;
+using osgRayTrace::SceneLights;
 
 namespace
 {
@@ -64,7 +65,7 @@ std::string rangeOf(const std::string& name)
 }
 
 /// Sets one item of applyParameters.
-std::string applyItem(const std::string& item, RayTraceSettings& settings)
+std::string applyItem(const std::string& item, RayTraceSettings& settings, SceneLights& lights)
 {
     const auto equals = item.find('=');
     if (equals == std::string::npos)
@@ -73,6 +74,9 @@ std::string applyItem(const std::string& item, RayTraceSettings& settings)
 
     const std::string name = trimmed(item.substr(0, equals));
     const std::string value = trimmed(item.substr(equals + 1));
+    if (SceneLights::knows(name))
+        return lights.set(name, value) ? std::string()
+                                       : "option '" + name + "' cannot be '" + value + "'";
     if (settings.get(name).empty()) return "there is no option '" + name + "'";
     if (settings.set(name, value)) return std::string();
     return "option '" + name + "' cannot be '" + value + "'" + rangeOf(name);
@@ -92,13 +96,14 @@ NameParts splitName(const std::string& name)
     return {name, std::string()};
 }
 
-std::string applyParameters(const std::string& parameters, RayTraceSettings& settings)
+std::string applyParameters(const std::string& parameters, RayTraceSettings& settings,
+                            SceneLights& lights)
 {
     std::istringstream list(parameters);
     std::string item;
     while (std::getline(list, item, ','))
     {
-        const std::string error = applyItem(trimmed(item), settings);
+        const std::string error = applyItem(trimmed(item), settings, lights);
         if (!error.empty()) return error;
     }
     return std::string();

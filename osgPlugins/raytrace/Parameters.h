@@ -3,6 +3,7 @@
 #pragma once
 
 #include <osgRayTrace/RayTraceSettings>
+#include <osgRayTrace/SceneLights>
 
 #include <string>
 
@@ -21,4 +22,6 @@ NameParts splitName(const std::string& name);
 /// Sets options from "path,passes=64": an integrator, a debug channel (which selects the debug
 /// integrator) or option=value, separated by commas. Returns an empty string if all went well; else
 /// a sentence on the first item that does not fit, and settings have to be thrown away.
-std::string applyParameters(const std::string& parameters, osgRayTrace::RayTraceSettings& settings);
+/// Lights are set by the names of SceneLights.
+std::string applyParameters(const std::string& parameters, osgRayTrace::RayTraceSettings& settings,
+                            osgRayTrace::SceneLights& lights);

@@ -17,6 +17,7 @@
 ///   cow.osgt.raytrace                              settings from the environment
 ///   cow.osgt.path.raytrace                         an integrator, or a debug channel
 ///   "cow.osgt.(integrator=path,passes=64).raytrace"  options by name
+///   "cow.osgt.(environment=sky.exr,sun=180:40).raytrace"  lights by SceneLights' names
 class ReaderWriterRayTrace : public osgDB::ReaderWriter
 {
 public:
@@ -58,7 +59,9 @@ private:
         if (parts.file.empty()) return ReadResult("raytrace: the name of the model is missing");
 
         const osg::ref_ptr<osgRayTrace::RayTracedScene> scene = new osgRayTrace::RayTracedScene;
-        const std::string error = applyParameters(parts.parameters, *scene->getSettings());
+        osgRayTrace::SceneLights lights;
+        lights.readVariables();
+        const std::string error = applyParameters(parts.parameters, *scene->getSettings(), lights);
         if (!error.empty()) return ReadResult("raytrace: " + error);
 
         const osg::ref_ptr<Options> naming = options ? options->cloneOptions() : new Options;
@@ -67,6 +70,8 @@ private:
         ReadResult read = osgDB::Registry::instance()->readNode(parts.file, naming.get());
         if (!read.validNode()) return failure(read, parts.file);
         scene->addChild(read.getNode());
+        const std::string problem = lights.addTo(*scene);
+        if (!problem.empty()) return ReadResult("raytrace: " + problem);
         return scene;
     }
 

@@ -100,6 +100,22 @@ TEST_CASE("osgraytrace --camera-path: the camera goes where it was recorded", "[
     CHECK(osgraytrace(folder, kQuick + "--camera-path none.path -o b.png").exitCode == 2);
 }
 
+TEST_CASE("osgraytrace --parallel: a plan, and a view that is kept in a file", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeBall(folder);
+    const std::string from = "--eye 0 -50 0 --center 0 0 0 --up 0 0 1 ";
+    REQUIRE(osgraytrace(folder, kQuick + from + "--parallel 4 -o plan.png").exitCode == 0);
+    // The picture is 16 wide in the model's units: the ball's middle is 5 from the left.
+    CHECK(ballIn(folder / "plan.png").column == Approx(64.0 * 5.0 / 16.0 - 0.5).margin(0.51));
+    CHECK(ballIn(folder / "plan.png").columns == 8);
+    std::ofstream(folder / "kept.view") << from << "\n--parallel 4\n";
+    REQUIRE(osgraytrace(folder, kQuick + "--camera kept.view -o kept.png").exitCode == 0);
+    CHECK((contents(folder / "kept.png") == contents(folder / "plan.png")));
+    CHECK(osgraytrace(folder, kQuick + "--parallel 4 --fovy 30 -o x.png").exitCode == 1);
+    CHECK(osgraytrace(folder, kQuick + "--camera other -o x.png").exitCode == 1);
+}
+
 TEST_CASE("osgraytrace --turntable: the camera goes around the centre", "[apps]")
 {
     const TemporaryFolder folder;

@@ -32,6 +32,17 @@ TEST_CASE("osgraytrace-run: the program by itself knows nothing of it", "[apps]"
     CHECK(outcome.output.find("viewer Group") == 0);
 }
 
+TEST_CASE("osgraytrace-run: lights come from variables, and wrong ones are named", "[apps]")
+{
+    const Outcome lit = run(kForeign, "OSGRAYTRACE_SUN=90:30 OSGRAYTRACE_HEADLIGHT=off");
+    CHECK(lit.exitCode == 7);
+    CHECK(lit.errors.empty());
+    CHECK(run(kForeign, "OSGRAYTRACE_SUN=high").errors.find("OSGRAYTRACE_SUN cannot be 'high'") !=
+          std::string::npos);
+    CHECK(run(kForeign, "OSGRAYTRACE_ENVIRONMENT=none.exr").errors.find("cannot load none.exr") !=
+          std::string::npos);
+}
+
 TEST_CASE("osgraytrace-run: keys are names or characters", "[apps]")
 {
     CHECK(run(kForeign, "OSGRAYTRACE_TOGGLE_KEY=F3").errors.empty());

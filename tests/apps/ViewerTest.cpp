@@ -4,13 +4,20 @@
 #include "apps/common/ErrorText.h"
 #include "apps/osgraytraceviewer/KeyHandler.h"
 #include "apps/osgraytraceviewer/StatusLine.h"
+#include "apps/osgraytraceviewer/ViewerOptions.h"
 #include "tests/Catch.h"
 #include "tests/bridge/Messages.h"
 #include "tests/gl/TestViewer.h"
+#include "tests/plugins/TemporaryFolder.h"
 
 #include <osg/Material>
+#include <osgDB/ReadFile>
+#include <osgGA/KeySwitchMatrixManipulator>
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/ViewerEventHandlers>
+
+#include <filesystem>
+#include <fstream>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::app;
@@ -113,6 +120,81 @@ TEST_CASE("viewer: v goes from camera to camera of the model", "[apps]")
         viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, nearest, farthest);
         CHECK(fovy == Approx(20.0 * number));
     }
+}
+
+TEST_CASE("viewer: E writes the view as options that give it again", "[apps]")
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(new RayTracedScene);
+    osgViewer::Viewer viewer;
+    osg::Camera& camera = *viewer.getCamera();
+    camera.setViewMatrixAsLookAt({1, 2, 3}, {1, 12, 3}, {0, 0, 1});
+    camera.setProjectionMatrixAsPerspective(30.0, 1.5, 1.0, 100.0);
+    CHECK(send(*keys, viewer, Event::KEYDOWN, 'E'));
+    camera.setProjectionMatrixAsOrtho(-3, 3, -2, 2, 1.0, 100.0);
+    CHECK(send(*keys, viewer, Event::KEYDOWN, 'E'));
+    std::filesystem::current_path(before);
+
+    const ViewOptions view = readViewFile(folder / "osgraytrace-1.view");
+    CHECK((*view.eye - osg::Vec3d(1, 2, 3)).length() < 1e-9);
+    CHECK((*view.center - osg::Vec3d(1, 3, 3)).length() < 1e-9);
+    CHECK((*view.up - osg::Vec3d(0, 0, 1)).length() < 1e-9);
+    CHECK(*view.fovyDegrees == Approx(30.0));
+    CHECK_FALSE(view.height);
+    CHECK(*readViewFile(folder / "osgraytrace-2.view").height == Approx(4.0));
+
+    std::ofstream(folder / "bad.view") << "--eye 1 2";
+    CHECK_THROWS_WITH(readViewFile(folder / "bad.view"), Contains("'--eye' does not begin"));
+    std::ofstream(folder / "empty.view");
+    CHECK_THROWS_WITH(readViewFile(folder / "empty.view"), Contains("it holds no view"));
+}
+
+TEST_CASE("viewer: C writes what the window shows", "[apps][gl]")
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder / ".");
+    const osg::ref_ptr<RayTracedScene> scene =
+        tracedScene(sphere(osg::Vec3(), 2.0f, osg::Vec4(1, 1, 1, 1)));
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    TestViewer viewer(32, 32, scene);
+    viewer.camera().addFinalDrawCallback(keys->windowPicture());
+    viewer.frames(1);
+    CHECK(send(*keys, viewer.viewer, Event::KEYDOWN, 'C'));
+    const osg::ref_ptr<osg::Image> shown = viewer.frames(1);
+    viewer.frames(1); // one picture is enough
+    std::filesystem::current_path(before);
+    CHECK(folder.fileNames() == std::vector<std::string>{"osgraytrace-1.png"});
+    const osg::ref_ptr<osg::Image> written = osgDB::readRefImageFile(folder / "osgraytrace-1.png");
+    REQUIRE(written);
+    for (const auto& [x, y] : {std::pair(16u, 16u), std::pair(12u, 18u), std::pair(1u, 1u)})
+        CHECK(written->getColor(x, y).g() == Approx(shown->getColor(x, y).g()).margin(0.004));
+}
+
+TEST_CASE("viewer: the manipulators of osgviewer take the view that is asked for", "[apps]")
+{
+    osgViewer::Viewer viewer;
+    const osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(sphere(osg::Vec3(), 2.0f, osg::Vec4(1, 1, 1, 1)));
+    ViewerOptions options;
+    options.view.eye = osg::Vec3d(0.0, -9.0, 0.0);
+    options.view.fovyDegrees = 50.0;
+    addManipulators(viewer, options);
+    showView(viewer, *scene, options);
+    CHECK((viewer.getCameraManipulator()->getMatrix().getTrans() - osg::Vec3d(0, -9, 0)).length() <
+          1e-6);
+    double fovy = 0.0, aspect = 0.0, nearest = 0.0, farthest = 0.0;
+    viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, nearest, farthest);
+    CHECK(fovy == Approx(50.0));
+    const auto* keys =
+        dynamic_cast<osgGA::KeySwitchMatrixManipulator*>(viewer.getCameraManipulator());
+    REQUIRE(keys);
+    for (const int key : {'1', '2', '3', '4', '5', '6'})
+        CHECK(keys->getMatrixManipulatorWithKey(static_cast<unsigned int>(key)));
+    options.camera = "no such camera";
+    CHECK_THROWS_WITH(showView(viewer, *scene, options), Contains("there is no such file"));
 }
 
 TEST_CASE("viewer: the status line says how far the picture is, and what is not as usual",

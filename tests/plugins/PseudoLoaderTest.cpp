@@ -6,12 +6,15 @@
 
 #include <osg/Geode>
 #include <osg/Geometry>
+#include <osg/LightSource>
 #include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -113,6 +116,35 @@ TEST_CASE("pseudo-loader: options are set by name, with or without brackets", "[
     CHECK(exposed->getSettings()->getExposure() == -1.5f);
     CHECK(exposed->getSettings()->getLightSampling() == RayTraceSettings::RANDOM);
     CHECK(readScene(folder.file("quad.osgt.().raytrace"))->getNumChildren() == 1);
+}
+
+TEST_CASE("pseudo-loader: lights are added by osgraytrace's names", "[plugins]")
+{
+    const Folder folder;
+    const auto scene = readScene(folder.file("quad.osgt.(sun=90:30,path).raytrace"));
+    REQUIRE(scene->getNumChildren() == 2);
+    CHECK(scene->getChild(0)->getName() == "quad");
+    const auto* source = dynamic_cast<osg::LightSource*>(scene->getChild(1));
+    REQUIRE(source);
+    CHECK(source->getLight()->getPosition().x() == Approx(std::sqrt(0.75)));
+    CHECK(source->getLight()->getPosition().z() == Approx(0.5));
+    CHECK(scene->getSettings()->getIntegrator() == RayTraceSettings::PATH);
+
+    const auto dark = readScene(folder.file("quad.osgt.(headlight=off).raytrace"));
+    CHECK(dark->getNumChildren() == 1);
+    CHECK(dark->getStateSet()->getMode(GL_LIGHT0) == osg::StateAttribute::OFF);
+    for (const char* wrong : {"sun=90", "sun=0:91", "headlight=maybe", "environment-strength=0",
+                              "environment=no-such-sky.exr"})
+    {
+        INFO(wrong);
+        CHECK_FALSE(
+            readNode(folder.file(std::string("quad.osgt.(") + wrong + ").raytrace")).success());
+    }
+
+    setenv("OSGRAYTRACE_SUN", "0:90", 1); // as for programs under osgraytrace-run
+    CHECK(readScene(folder.file("quad.osgt.raytrace"))->getNumChildren() == 2);
+    unsetenv("OSGRAYTRACE_SUN");
+    CHECK(readScene(folder.file("quad.osgt.raytrace"))->getNumChildren() == 1);
 }
 
 TEST_CASE("pseudo-loader: it nests with OSG's own, either way round", "[plugins]")

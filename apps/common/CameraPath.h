@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "apps/common/StoredView.h"
+#include "StoredView.h"
 
 #include <osg/AnimationPath>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "CameraPath.h"
 
-#include "apps/common/Failure.h"
+#include "Failure.h"
 #include "osgRayTrace/base/NumberText.h"
 
 #include <array>
