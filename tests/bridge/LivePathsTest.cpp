@@ -95,7 +95,7 @@ TEST_CASE("live paths: of several to one tile that one goes that was taken away"
     {
         addLevels();
         taken = addPath(*graph.root, at(0.0, -0.9), 1);
-        addPath(*graph.root, osg::Matrixd::scale(0.0, 1.0, 1.0), 2);
+        addPath(*graph.root, osg::Matrixd::scale(0.0, 0.0, 1.0), 2);
     }
     SECTION("another before it is left to OpenGL")
     {

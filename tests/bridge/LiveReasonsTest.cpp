@@ -125,6 +125,8 @@ TEST_CASE("reasons: edits of nodes", "[bridge]")
         ConversionCause::ChildOrder, "root/group");
     reasons.converts([&] { reasons.levels->getChild(0)->setNodeMask(0); },
                      ConversionCause::Untracked, "root/holder/levels");
+    reasons.converts([&] { reasons.levels->getChild(0)->setNodeMask(~0u); },
+                     ConversionCause::Untracked, "root/holder/levels");
     reasons.converts([&] { reasons.holder->setMatrix(osg::Matrixd::translate(0.1, 0.0, 0.0)); },
                      ConversionCause::MovedSpecial, "root/holder");
     reasons.converts(
@@ -158,7 +160,7 @@ TEST_CASE("reasons: edits of geometry and of places", "[bridge]")
         ConversionCause::VertexAttributes, "root/group/object1/tile");
     reasons.converts([&] { graph.geometry(2).setDataVariance(osg::Object::STATIC); },
                      ConversionCause::DrawingMode, "root/group/object2/tile");
-    reasons.converts([&] { graph.objects[3]->setMatrix(osg::Matrixd::scale(1.0, 1.0, 0.0)); },
+    reasons.converts([&] { graph.objects[3]->setMatrix(osg::Matrixd::scale(1.0, 0.0, 0.0)); },
                      ConversionCause::BadTransform, "root/group/object3/tile");
     reasons.converts([&]
                      { graph.geometry(4).addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 2)); },
@@ -192,7 +194,7 @@ TEST_CASE("reasons: the path is that of the one use that could not be redone", "
     // The mesh is in the static BVH: the second path makes it a mesh with instances.
     reasons.converts([&] { graph.root->addChild(other); }, ConversionCause::NotAnInstance,
                      "root/other/tile");
-    reasons.converts([&] { other->setMatrix(osg::Matrixd::scale(1.0, 0.0, 1.0)); },
+    reasons.converts([&] { other->setMatrix(osg::Matrixd::scale(1.0, 0.0, 0.0)); },
                      ConversionCause::BadTransform, "root/other/tile");
 }
 

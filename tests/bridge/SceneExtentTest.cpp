@@ -209,7 +209,17 @@ TEST_CASE("a light that moves in a small scene has moved", "[bridge]")
             return conditions;
         };
         CAPTURE(scale);
-        CHECK(convertAlike(conditionsWith(1.0), conditionsWith(1.0 + 1e-6)));
-        CHECK_FALSE(convertAlike(conditionsWith(1.0), conditionsWith(1.001)));
+        const auto isSame = [&](double x, bool inEyeSpace)
+        {
+            ViewingConditions before = conditionsWith(1.0), now = conditionsWith(x);
+            before.lightInEyeSpace = now.lightInEyeSpace = inEyeSpace;
+            CHECK(convertAlike(before, now) == (inEyeSpace || x < 1.001));
+            return keepSame(before, now);
+        };
+        for (const bool inEyeSpace : {false, true})
+        {
+            CHECK(isSame(1.0 + 1e-6, inEyeSpace));
+            CHECK_FALSE(isSame(1.001, inEyeSpace));
+        }
     }
 }

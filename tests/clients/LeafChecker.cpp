@@ -7,11 +7,13 @@
 // must be among the leaves of what OSG draws beside the traced picture, or be a use of a geometry
 // that is traced. A whole conversion must report what the program's own scene reports, whose edits
 // may be of many frames. The counts are added to the file "<OSGRAYTRACE_TEST_PICTURES>.leaves".
+#include "osgRayTrace/bridge/common/FlatMatrix.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/convert/SceneConverter.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/update/ViewMasks.h"
 
 #include <osgRayTrace/RayTracedScene>
 
@@ -263,7 +265,7 @@ void judge(const Leaf& leaf, const Found& found, Tally& tally)
         ++tally.drawn;
         return;
     }
-    if (isEmpty(drawable))
+    if (isEmpty(drawable) || !placingMatrix(leaf.modelView, 0.0))
     {
         ++tally.empty;
         return;
@@ -274,9 +276,8 @@ void judge(const Leaf& leaf, const Found& found, Tally& tally)
         return;
     }
     const std::set<const osg::PrimitiveSet*> rest = setsWithoutTriangles(drawable);
-    const std::size_t sets =
-        drawable.asGeometry() ? drawable.asGeometry()->getNumPrimitiveSets() : 0;
-    const bool allRest = sets > 0 && rest.size() == sets;
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const bool allRest = !rest.empty() && rest.size() == geometry->getNumPrimitiveSets();
     if ((allRest || holds(found.traced, leaf.drawable.get(), leaf.modelView)) &&
         drawsSets(found, rest, leaf.modelView))
     {
@@ -304,11 +305,12 @@ void write(const Tally& tally)
 
 /// Returns the report of a conversion of the whole scene, by a converter that has seen the images
 /// of earlier frames: textures give them up once they are drawn. It outlives the program's threads.
-ConversionCounts countsOf(const RayTracedScene& scene, const ConversionInput& input)
+ConversionCounts countsOf(const RayTracedScene& scene, ConversionInput input)
 {
     static std::mutex mutex;
     static auto* converters = new std::map<const RayTracedScene*, SceneConverter>;
     const std::lock_guard<std::mutex> lock(mutex);
+    input.origin = input.eye; // far from it, floats have no room for small triangles
     return (*converters)[&scene].convert(input).counts;
 }
 
@@ -406,23 +408,26 @@ unsigned int frameToCheck()
     return unsigned(std::max(2, frames ? std::atoi(frames) : 30)) - 1;
 }
 
-/// Returns the traversal masks of all views of a scene if this view of it is to be checked: once
-/// for each mask, in the frame to check or in the first one behind it.
-std::set<unsigned int> masksIfDue(const RayTracedScene& scene, const osgUtil::CullVisitor& visitor)
+/// Returns the traversal masks with which views look at a scene now if this view is to be checked:
+/// once for each mask, in the frame to check or in the first one behind it.
+std::set<unsigned int> masksIfDue(const RayTracedScene& scene, osgUtil::CullVisitor& visitor)
 {
     struct Checked
     {
         std::mutex mutex;
-        std::map<const RayTracedScene*, std::set<unsigned int>> masks, checked;
+        std::map<const RayTracedScene*, ViewMasks> masks;
+        std::map<const RayTracedScene*, std::set<unsigned int>> checked;
     };
     static auto* state = new Checked; // outlives the program's threads
-    const unsigned int mask = visitor.getTraversalMask();
-    const bool late =
-        visitor.getFrameStamp() && visitor.getFrameStamp()->getFrameNumber() >= frameToCheck();
+    const auto mask = visitor.getTraversalMask();
+    const osg::FrameStamp* frameStamp = visitor.getFrameStamp();
+    const bool late = frameStamp && frameStamp->getFrameNumber() >= frameToCheck();
     const std::lock_guard<std::mutex> lock(state->mutex);
-    state->masks[&scene].insert(mask);
+    auto& masks = state->masks[&scene];
+    masks.record(visitor.getCurrentCamera(), mask, frameStamp);
     if (!late || !scene.getEnabled() || !state->checked[&scene].insert(mask).second) return {};
-    return state->masks[&scene];
+    const auto inUse = masks.inUse(frameStamp);
+    return {inUse.begin(), inUse.end()};
 }
 
 } // namespace

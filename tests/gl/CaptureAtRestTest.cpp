@@ -5,6 +5,8 @@
 #include "CullView.h"
 #include "tests/Catch.h"
 
+#include <osg/Depth>
+
 using namespace osgRayTrace;
 using namespace osgRayTrace::test;
 using namespace application;
@@ -198,4 +200,51 @@ TEST_CASE("captures at rest: an edit is seen in the next frame", "[gl][cull]")
     }
     checkPicture(view, {}, 1);
     CHECK(view.count("converted.culled") == traced);
+}
+
+TEST_CASE("cull content: what OSG alone draws of a node changes without conversions", "[gl][cull]")
+{
+    struct Sky : osg::Group // a class of the application's
+    {
+    };
+    const osg::ref_ptr<osg::Geometry> square = unlitSquare(0.8f, kRed);
+    const osg::ref_ptr<osg::MatrixTransform> place = raised(square.get(), 0.5f);
+    addProgram(*place);
+    place->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0, 1, false));
+    place->getStateSet()->setRenderBinDetails(11, "RenderBin"); // after what is traced
+    const osg::ref_ptr<osg::Group> sky = new Sky;
+    sky->addChild(place);
+    const osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform;
+    above->addChild(sky);
+    View view(above.get());
+    checkPicture(view);
+    CHECK(view.count("traced.proxy") == 0);
+    view.viewer.frames(2);
+    const uint64_t conversions = view.conversions();
+    for (int i = 1; i <= 4; ++i)
+    {
+        square->getColorArray()->dirty();
+        (*static_cast<osg::Vec3Array*>(square->getVertexArray()))[0].x() -= 0.1f;
+        square->getVertexArray()->dirty();
+        square->dirtyBound();
+        place->setMatrix(osg::Matrix::translate(0.1 * i, 0, 0.5));
+        above->setMatrix(osg::Matrix::translate(0, 0.1 * i, 0));
+        view.viewer.frames(1);
+    }
+    CHECK(view.conversions() == conversions);
+    checkPicture(view);
+
+    // What begins to hide others has a proxy, and what had no place gets one.
+    place->getStateSet()->removeAttribute(osg::StateAttribute::DEPTH);
+    view.viewer.frames(2);
+    CHECK(view.count("traced.proxy") == 1);
+    place->setStateSet(nullptr);
+    view.viewer.frames(2);
+    CHECK(view.count("rasterized.shader-program") == 0);
+    above->setMatrix(osg::Matrix::scale(0, 0, 0));
+    view.viewer.frames(2);
+    CHECK(view.count("converted.instance") == 1);
+    above->setMatrix(osg::Matrix::translate(0.2, 0.1, 0));
+    checkPicture(view);
+    CHECK(view.count("converted.instance") == 2);
 }

@@ -9,6 +9,7 @@
 
 #include <osg/BlendFunc>
 #include <osg/Depth>
+#include <osg/LOD>
 #include <osg/Light>
 #include <osg/Program>
 #include <osg/Projection>
@@ -23,11 +24,29 @@ using namespace application;
 namespace
 {
 
-void useEffects(TestViewer& viewer)
+void useEffectsOf(osg::Camera& camera)
 {
-    auto& renderer = dynamic_cast<osgViewer::Renderer&>(*viewer.camera().getRenderer());
+    auto& renderer = dynamic_cast<osgViewer::Renderer&>(*camera.getRenderer());
     for (unsigned int i = 0; i < 2; ++i)
         renderer.getSceneView(i)->setCullVisitor(new EffectCullVisitor);
+}
+
+void useEffects(TestViewer& viewer)
+{
+    useEffectsOf(viewer.camera());
+}
+
+/// Adds a camera in a corner that sees other nodes by their masks.
+void useEffectsAndMasks(TestViewer& viewer)
+{
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setGraphicsContext(viewer.camera().getGraphicsContext());
+    camera->setViewport(0, 0, 4, 4);
+    camera->setRenderOrder(osg::Camera::POST_RENDER);
+    camera->setCullMask(1);
+    viewer.viewer.addSlave(camera.get());
+    useEffectsOf(*camera);
+    useEffects(viewer);
 }
 
 /// Returns a camera that fills a texture.
@@ -222,10 +241,25 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
     }
     SECTION("what moves goes along")
     {
-        View view(content.get(), useEffects);
-        view.viewer.frames(2);
+        const bool masked = GENERATE(false, true), inLevels = GENERATE(false, true);
+        CAPTURE(masked, inLevels);
+        const Setup setup = [masked](TestViewer& viewer)
+        { masked ? useEffectsAndMasks(viewer) : useEffects(viewer); };
+        const osg::ref_ptr<osg::LOD> levels = new osg::LOD; // GraphWatch does not look into it
+        struct Animation : osg::Group                       // of a class of the application's
+        {
+        };
+        levels->addChild(new Animation, 0.0f, 1e6f);
+        levels->getChild(0)->asGroup()->addChild(content);
+        View view(inLevels ? levels.get() : content->asGroup(), setup);
+        view.viewer.frames(3);
+        content->setMatrix(osg::Matrix::translate(0.6, 0.1, 0.6));
+        view.viewer.frames(2); // the values of arrays are known from here
+        const uint64_t conversions = view.conversions();
         content->setMatrix(osg::Matrix::translate(0.7, 0.2, 0.6));
-        checkPicture(view, useEffects);
+        view.viewer.frames(1);
+        CHECK(view.conversions() == conversions);
+        checkPicture(view, setup);
     }
     SECTION("its program is drawn by OSG")
     {

@@ -246,3 +246,30 @@ TEST_CASE("pairs: one geometry in many places, mirrored and uneven", "[gl]")
                   return root;
               });
 }
+
+TEST_CASE("pairs: what a transform flattens", "[gl]")
+{
+    checkSame(
+        "flattened",
+        []
+        {
+            osg::ref_ptr<osg::Group> root = new osg::Group;
+            osg::ref_ptr<osg::ShapeDrawable> cone =
+                new osg::ShapeDrawable(new osg::Cone(osg::Vec3(0.1f, 0.0f, 0.3f), 0.6f, 1.2f));
+            cone->setColor(osg::Vec4(0.8f, 0.7f, 0.2f, 1.0f));
+            cone->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+            osg::Matrix shadow; // on the plane z = 0, along (-1, -0.5, -1)
+            shadow(2, 0) = -1.0;
+            shadow(2, 1) = -0.5;
+            shadow(2, 2) = 0.0;
+            const osg::Matrix all[] = {osg::Matrix::scale(0, 1, 1), osg::Matrix::scale(1, 0, 1),
+                                       osg::Matrix::scale(-1, 1, 0), shadow};
+            for (int i = 0; i < 4; ++i)
+                root->addChild(
+                    at(all[i] * osg::Matrix::rotate(0.3, osg::Vec3d(0, 1, 0.5)) *
+                           osg::Matrix::translate(1.8 * (i % 2) - 0.9, 1.8 * (i / 2) - 0.9, 0.0),
+                       cone.get()));
+            root->addChild(at(osg::Matrix::scale(1, 0, 0), cone.get())); // nothing is seen
+            return root;
+        });
+}

@@ -4,6 +4,8 @@
 #include "GreenScene.h"
 #include "tests/Catch.h"
 
+#include <osgRayTrace/PhysicalMaterial>
+
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
@@ -173,6 +175,59 @@ TEST_CASE("traced scene: osgViewer's light is found, and followed", "[gl]")
     compare();
     CHECK(headlight > skyLight + 20.0f);
     CHECK(skyLight > dimmed + 10.0f);
+}
+
+TEST_CASE("traced scene: the background and the light of a view change without a conversion",
+          "[gl]")
+{
+    osg::ref_ptr<osg::Group> content = new osg::Group;
+    osg::ref_ptr<osg::Geometry> mirror = unlitSquare(1.5f, osg::Vec4(1, 1, 1, 1));
+    osg::ref_ptr<PhysicalMaterial> metal = new PhysicalMaterial;
+    metal->setMetallic(1.0f);
+    metal->setRoughness(0.0f);
+    mirror->getOrCreateStateSet()->setAttribute(metal.get());
+    content->addChild(mirror);
+    content->addChild(sphere(osg::Vec3(1.5f, 1.0f, 0.0f), 0.7f, osg::Vec4(1, 1, 1, 1)));
+    const auto traced = [&content]
+    {
+        osg::ref_ptr<RayTracedScene> scene = tracedScene(content.get());
+        scene->getSettings()->setMaxPasses(20);
+        return scene;
+    };
+    const osg::ref_ptr<RayTracedScene> scene = traced();
+    TestViewer view(kSize, kSize, scene.get());
+    view.frames(2);
+    const uint64_t conversions = scene->getDrawable()->getStatistics().conversions;
+    osg::Vec4 background(0.8f, 0.1f, 0.3f, 1.0f);
+    const auto checkPicture = [&](const osg::Vec4& light)
+    {
+        TestViewer fresh(kSize, kSize, traced().get());
+        for (TestViewer* each : {&view, &fresh})
+        {
+            each->camera().setClearColor(background);
+            each->viewer.getLight()->setDiffuse(light);
+        }
+        const osg::ref_ptr<osg::Image> before = view.frames(0), now = view.frames(2);
+        CHECK(equal(*now, *fresh.frames(2)));
+        CHECK_FALSE(equal(*now, *before));
+        CHECK(passes(*scene) == 2);
+    };
+    checkPicture(osg::Vec4(0.8f, 0.8f, 0.8f, 1.0f));
+    checkPicture(osg::Vec4(0.9f, 0.2f, 0.1f, 1.0f));
+
+    // What drifts too slowly to be seen goes on, until it can be seen.
+    const auto drift = [&](float step)
+    {
+        background.x() += step;
+        view.camera().setClearColor(background);
+        view.frames();
+        return passes(*scene);
+    };
+    for (int i = 0; i < 4; ++i)
+        CHECK(drift(1e-6f) == 3 + i);
+    CHECK(drift(0.0006f) == 7);
+    CHECK(drift(0.0006f) == 1);
+    CHECK(scene->getDrawable()->getStatistics().conversions == conversions);
 }
 
 TEST_CASE("traced scene: visitors other than cull reach the children", "[gl]")

@@ -24,7 +24,7 @@ constexpr CauseText kTexts[] = {
     {ConversionCause::Picking, "a pick needs an index of what is traced"},
     {ConversionCause::OtherRoot, "the scene has another root"},
     {ConversionCause::OtherConditions,
-     "the viewer's light, background colour or traversal mask has changed"},
+     "the number or the place of the viewer's light has changed, or a traversal mask"},
     {ConversionCause::OtherSettings, "a setting has changed that decides on materials or lights"},
     {ConversionCause::OtherOrigin,
      "the eye has gone too far from the origin of the engine's coordinates"},

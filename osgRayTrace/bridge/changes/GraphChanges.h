@@ -6,9 +6,12 @@
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
 
 #include <osg/Geometry>
+#include <osg/Light>
 #include <osg/Matrixd>
+#include <osg/Vec4>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -45,6 +48,13 @@ struct GraphSplice
     std::vector<ChangedUse> uses;
 };
 
+/// Names what of a view's conditions has changed without the graph.
+struct ViewChange
+{
+    osg::Vec4 clearColor;                 ///< as in ViewingConditions
+    osg::ref_ptr<const osg::Light> light; ///< null only if there was none before
+};
+
 /// Lists the changes of a graph by pointers into it, which are valid as long as nobody changes the
 /// graph. The numbers of uses in moved, deformed and stateChanges are those after all splices.
 struct GraphChanges
@@ -59,8 +69,13 @@ struct GraphChanges
     std::vector<const osg::Geometry*> deformed;
     std::vector<StateChange> stateChanges;
     bool lights = false; ///< true: values of lights of any kind changed
+    std::optional<ViewChange> view;
 
-    bool none() const
+    bool none() const { return !view && noneInGraph(); }
+    bool isOfTheView() const { return view && noneInGraph(); }
+
+private:
+    bool noneInGraph() const
     {
         return !convert && splices.empty() && moved.empty() && deformed.empty() &&
                stateChanges.empty() && !lights;

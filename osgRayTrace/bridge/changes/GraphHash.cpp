@@ -14,6 +14,7 @@
 #include <osgRayTrace/EnvironmentLight>
 
 #include <osg/Billboard>
+#include <osg/ClearNode>
 #include <osg/ClipNode>
 #include <osg/Geometry>
 #include <osg/LightSource>
@@ -55,8 +56,15 @@ public:
 
     uint64_t value() const { return _hasher.value(); }
 
+    /// Has the hash leave out what structureHash() does not tell.
+    void leaveShapesOut() { _shapes = false; }
+
+    /// Has the hash leave it out of these nodes and what is below them.
+    void follow(const std::unordered_set<const osg::Node*>* followed) { _followed = followed; }
+
     void apply(osg::Node& node) override
     {
+        addPlace();
         if (const auto* light = dynamic_cast<const AreaLight*>(&node))
             _hasher.add(light->getCorner(), light->getEdgeU(), light->getEdgeV(),
                         light->getRadiance(), light->getTwoSided());
@@ -69,6 +77,7 @@ public:
 
     void apply(osg::LightSource& node) override
     {
+        addPlace();
         _hasher.add(node.getReferenceFrame());
         if (node.getLight()) addLight(_hasher, *node.getLight());
         enter(node);
@@ -76,6 +85,7 @@ public:
 
     void apply(osg::TexGenNode& node) override
     {
+        addPlace();
         if (node.getReferenceFrame() == osg::TexGenNode::ABSOLUTE_RF) hashView();
         _hasher.add(node.getReferenceFrame(), node.getTextureUnit());
         _hasher.addObject(node.getTexGen());
@@ -87,7 +97,10 @@ public:
     {
         const osg::Matrixd outer = _sceneFromLocal;
         _sceneFromLocal = worldFromLocal(node, outer, *this, _view);
-        _hasher.addMatrix(_sceneFromLocal);
+        if (_shapes && !_followed)
+            _hasher.addMatrix(_sceneFromLocal);
+        else
+            _hasher.add(node.getReferenceFrame());
         enter(node);
         _sceneFromLocal = outer;
     }
@@ -101,6 +114,7 @@ public:
 
     void apply(osg::ClipNode& node) override
     {
+        addPlace();
         if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) hashView();
         for (const auto& plane : node.getClipPlaneList())
             if (plane) _hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
@@ -114,7 +128,8 @@ public:
     {
         addDrawable(drawable);
         // The bound of other drawables has to do as the sign of a change.
-        if (drawable.getDataVariance() == osg::Object::DYNAMIC && untracedDrawable(drawable))
+        if (_shapes && drawable.getDataVariance() == osg::Object::DYNAMIC &&
+            untracedDrawable(drawable))
             _hasher.add(DrawableTriangles::hashOf(drawable));
         traverse(drawable);
     }
@@ -124,6 +139,12 @@ public:
         if (!_budget.take()) return;
         addDrawable(geometry);
         _hasher.add(geometry.getDrawCallback() != nullptr);
+        if (!_shapes)
+        {
+            for (const auto& primitives : geometry.getPrimitiveSetList())
+                _hasher.add(primitives && primitives->getNumInstances() > 1);
+            return;
+        }
         for (const float weight : SoftwareVertices::weightsOf(geometry))
             _hasher.add(weight);
         _arrays.clear();
@@ -152,8 +173,21 @@ private:
     /// Adds the view for nodes that turn to the view or move with it.
     void hashView()
     {
+        if (!_shapes) return;
         _hasher.add(_eye);
         if (_view) _hasher.addMatrix(_view->viewFromWorld);
+    }
+
+    /// Adds the place of what nobody follows: transforms above those that are followed do not
+    /// count.
+    void addPlace()
+    {
+        if (_followed && _shapes) _hasher.addMatrix(_sceneFromLocal);
+    }
+
+    bool isFollowed(osg::Node& node) const
+    {
+        return _followed && _followed->count(&node) && !hasSpecialNodes(node);
     }
 
     void enter(osg::Node& node)
@@ -161,7 +195,10 @@ private:
         _hasher.addObject(&node);
         _hasher.addObject(node.getCullCallback());
         addOwnState(node);
+        const bool shapes = _shapes;
+        _shapes = shapes && !isFollowed(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
+        _shapes = shapes;
         _hasher.add(kEnd);
     }
 
@@ -169,6 +206,9 @@ private:
     {
         _hasher.addObject(&drawable);
         addOwnState(drawable);
+        _hasher.add(drawable.getCullingActive());
+        if (!_shapes) return;
+        addPlace();
         const osg::BoundingBox& box = drawable.getBoundingBox();
         _hasher.add(box._min, box._max);
     }
@@ -216,6 +256,8 @@ private:
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     std::shared_ptr<const ShaderReads> _reads;
+    bool _shapes = true;
+    const std::unordered_set<const osg::Node*>* _followed = nullptr;
     bool _hasViewMasks; ///< whether node masks hide from some views alone
     ReferenceCullStack _cullStack;
     osg::Matrixd _sceneFromLocal;
@@ -228,13 +270,44 @@ private:
 
 uint64_t graphHash(osg::Node& root, const ViewingConditions& conditions,
                    const osg::Matrixd& sceneFromLocal, KeptObjects* kept, BufferVersions* versions,
-                   PathBudget* budget)
+                   PathBudget* budget, const std::unordered_set<const osg::Node*>* followed)
 {
     if (versions) versions->begin();
     PathBudget own;
     HashVisitor visitor(conditions, sceneFromLocal, kept, versions, budget ? *budget : own);
+    visitor.follow(followed);
     root.accept(visitor);
     if (versions) versions->end();
+    return visitor.value();
+}
+
+bool hasSpecialNodes(osg::Node& node)
+{
+    struct Finder : osg::NodeVisitor
+    {
+        Finder() : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN) {}
+        void apply(osg::Node& visited) override
+        {
+            found = found || dynamic_cast<AreaLight*>(&visited) ||
+                    dynamic_cast<EnvironmentLight*>(&visited);
+            if (!found) traverse(visited);
+        }
+        void apply(osg::LightSource&) override { found = true; }
+        void apply(osg::ClipNode&) override { found = true; }
+        void apply(osg::TexGenNode&) override { found = true; }
+        void apply(osg::ClearNode&) override { found = true; }
+        void apply(osg::Drawable&) override {}
+        bool found = false;
+    } finder;
+    node.accept(finder);
+    return finder.found;
+}
+
+uint64_t structureHash(osg::Node& root, const ViewingConditions& conditions, PathBudget& budget)
+{
+    HashVisitor visitor(conditions, osg::Matrixd(), nullptr, nullptr, budget);
+    visitor.leaveShapesOut();
+    root.accept(visitor);
     return visitor.value();
 }
 

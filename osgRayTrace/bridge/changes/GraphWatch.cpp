@@ -9,14 +9,7 @@
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 
-#include <osgRayTrace/AreaLight>
-#include <osgRayTrace/EnvironmentLight>
-
-#include <osg/ClearNode>
-#include <osg/ClipNode>
-#include <osg/LightSource>
 #include <osg/NodeVisitor>
-#include <osg/TexGenNode>
 
 #include <algorithm>
 
@@ -43,29 +36,6 @@ osg::Node* soleNodeBelow(osg::Node& node, unsigned int traversalMask)
         osg::Node* found = nullptr;
     } finder;
     finder.setTraversalMask(traversalMask);
-    node.accept(finder);
-    return finder.found;
-}
-
-/// Returns whether a node or one below it is a light or places state for others.
-bool hasSpecialNodes(osg::Node& node)
-{
-    struct Finder : osg::NodeVisitor
-    {
-        Finder() : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN) {}
-        void apply(osg::Node& visited) override
-        {
-            found = found || dynamic_cast<AreaLight*>(&visited) ||
-                    dynamic_cast<EnvironmentLight*>(&visited);
-            if (!found) traverse(visited);
-        }
-        void apply(osg::LightSource&) override { found = true; }
-        void apply(osg::ClipNode&) override { found = true; }
-        void apply(osg::TexGenNode&) override { found = true; }
-        void apply(osg::ClearNode&) override { found = true; }
-        void apply(osg::Drawable&) override {}
-        bool found = false;
-    } finder;
     node.accept(finder);
     return finder.found;
 }
@@ -158,11 +128,11 @@ void GraphWatch::takeVersions(WatchedGraph& before)
 }
 
 GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditions,
-                              const std::unordered_set<const osg::Node*>& captured)
+                              const ConvertedNodes* converted)
 {
     GraphChanges changes;
     _root = &root;
-    _captured = &captured;
+    _converted = converted;
     ConversionCause notComparable = ConversionCause::None;
     if (!_recorded)
         notComparable = ConversionCause::NotWatched;
@@ -272,25 +242,44 @@ bool GraphWatch::isAsItWas(WatchedNode& node)
 /// captured node, and has none of the nodes that cull traversals do not tell of.
 bool GraphWatch::isFollowed(const WatchedNode& node) const
 {
-    if (_captured->empty() || !_plain.viewMasks.empty()) return false;
-    for (const WatchedNode* on = &node; !_captured->count(on->node); on = &_graph.nodes[on->parent])
+    if (!_converted || _converted->captured.empty()) return false;
+    const std::unordered_set<const osg::Node*>& captured = _converted->captured;
+    for (const WatchedNode* on = &node; !captured.count(on->node); on = &_graph.nodes[on->parent])
         if (on->parent == kNowhere) return false;
     return !hasSpecialNodes(*node.node);
 }
 
+/// Returns whether nothing of an untracked node is traced or lights what is: OSG draws all of it.
+bool GraphWatch::isOutOfScene(const WatchedNode& node) const
+{
+    return _converted && _converted->inScene && !_converted->inScene->count(node.node);
+}
+
 /// Returns whether an untracked node is unchanged. If only modified counts differ, the values of
-/// the arrays decide.
+/// the arrays decide; others follow what is below captured nodes. Cull traversals do not tell of
+/// masks that hide nodes from some of the views.
 bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
 {
-    if (isFollowed(node) && node.hint == hintHash(*node.node)) return true;
+    const bool isWithOthers = isFollowed(node);
+    if (isWithOthers && _plain.viewMasks.empty() && node.hint == hintHash(*node.node)) return true;
     UntrackedNode& untracked = _graph.untrackedNodes[node.item];
     PathBudget budget(untracked.budget), again(untracked.budget);
     const uint64_t hash =
         graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, nullptr, &budget);
     if (hash == node.hash) return true;
+    if (isWithOthers || isOutOfScene(node))
+    {
+        PathBudget same(untracked.budget);
+        if (structureHash(*node.node, _plain, same) == untracked.structure)
+        {
+            node.hash = hash;
+            return true;
+        }
+    }
     if (!untracked.versions) untracked.versions = std::make_unique<BufferVersions>();
-    const uint64_t contents = graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr,
-                                        untracked.versions.get(), &again);
+    const uint64_t contents =
+        graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, untracked.versions.get(),
+                  &again, _converted ? &_converted->captured : nullptr);
     const bool same = untracked.contents == contents;
     untracked.contents = contents;
     if (same) node.hash = hash;

@@ -12,6 +12,13 @@
 namespace osgRayTrace::engine
 {
 
+/// Names what the last conversion has made of nodes of classes that the watch does not know.
+struct ConvertedNodes
+{
+    const std::unordered_set<const osg::Node*>& captured; ///< see CullWatch
+    const std::unordered_set<const osg::Node*>* inScene; ///< CollectedGraph::inScene; null: unknown
+};
+
 /// Holds a graph as it was seen last (see WatchedGraph). A look compares the nodes of the graph one
 /// after the other, without a traversal. The watch knows nodes of the plain classes one by one; of
 /// any other node (level of detail, billboard, a class of the application's own) it knows only
@@ -34,9 +41,10 @@ public:
 
     /// Returns what has changed in the graph below the same root since the last look or record(),
     /// under conditions that differ at most in the eye, the view, the inherited state and reads.
-    /// captured: nodes at and below which others follow what nodes of unknown classes show.
+    /// converted: nodes at and below which others follow what nodes of unknown classes show, and
+    /// nodes of which nothing but what OSG draws is in the picture; null: there are none.
     GraphChanges look(osg::Node& root, const ViewingConditions& conditions,
-                      const std::unordered_set<const osg::Node*>& captured = {});
+                      const ConvertedNodes* converted = nullptr);
 
     /// Returns the path that the geometry had at the last look, for messages, or the name of the
     /// geometry alone if there is no such path. ChangedUse documents the parameter use.
@@ -54,6 +62,7 @@ private:
     bool isAsItWas(WatchedNode& node);
     bool isUntrackedAsItWas(WatchedNode& node);
     bool isFollowed(const WatchedNode& node) const;
+    bool isOutOfScene(const WatchedNode& node) const;
     bool redo(uint32_t index, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);
@@ -79,7 +88,7 @@ private:
 
     // These members serve a look while it runs:
     osg::Node* _root = nullptr;
-    const std::unordered_set<const osg::Node*>* _captured = nullptr;
+    const ConvertedNodes* _converted = nullptr;
     bool _anyMoved = false, _anyStateChanged = false;
     std::vector<uint32_t> _exchanged; ///< geometries that have other arrays
 };

@@ -127,7 +127,7 @@ void GraphWatch::findChanged(GraphChanges& changes)
         if (moved && node.kind == NodeKind::Untracked)
         {
             _graph.untrackedNodes[node.item].sceneFromLocal = matrixOf(node.place);
-            if (!isFollowed(node))
+            if (!isFollowed(node) && !isOutOfScene(node))
                 mustRecord(changes, ConversionCause::MovedSpecial,
                            _graph.places[_graph.outermostMoved(node.place)].node);
         }

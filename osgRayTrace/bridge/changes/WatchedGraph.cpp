@@ -175,6 +175,8 @@ void WatchedGraph::appendUntracked(WatchedNode entry, const osg::Matrixd& sceneF
     UntrackedNode& untracked = untrackedNodes.emplace_back();
     untracked.sceneFromLocal = sceneFromParent;
     untracked.budget = _untrackedBudget.left();
+    PathBudget budget(untracked.budget);
+    untracked.structure = structureHash(*entry.node, conditions, budget);
     entry.hash = graphHash(*entry.node, conditions, sceneFromParent, &untracked.kept, nullptr,
                            &_untrackedBudget);
     truncated |= _untrackedBudget.left() == 0;

@@ -115,6 +115,7 @@ struct UntrackedNode
     osg::Matrixd sceneFromLocal;
     KeptObjects kept;                         ///< objects in the hash
     std::size_t budget = 0;                   ///< budget for the hash
+    uint64_t structure = 0;                   ///< structureHash()
     std::optional<uint64_t> contents;         ///< hash by versions, as of the last change
     std::unique_ptr<BufferVersions> versions; ///< null: the node has not changed
 };

@@ -179,7 +179,7 @@ constexpr ReportReason kReportReasons[] = {
     {"skipped.light", "lights that are not finite, or of a number above 16383"},
     {"skipped.not-finite-transform", "transforms that are not finite, with all below them"},
     {"skipped.projective-transform", "projective transforms, with all below them"},
-    {"skipped.singular-transform", "singular transforms, with all below them"},
+    {"skipped.singular-transform", "transforms that leave things no area, with all below them"},
     {"skipped.too-deep", "nodes below 5000 others, without their children"},
     {"skipped.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
 

@@ -84,18 +84,34 @@ osg::Vec3d xyz(const osg::Vec4& v)
     return {v.x(), v.y(), v.z()};
 }
 
-/// Returns whether two lights are equal. Positions went through the eye space of their pass, and so
+/// Returns whether nobody sees a difference between two display values. A display has 256 steps;
+/// what drifts is compared with the value that it had at first.
+bool seemsSame(const osg::Vec4& a, const osg::Vec4& b)
+{
+    constexpr float kStep = 1.0f / 1024.0f;
+    for (int i = 0; i < 4; ++i)
+        if (a[i] != b[i] && !(std::abs(a[i] - b[i]) < kStep)) return false;
+    return true;
+}
+
+/// Returns whether two lights have the same place and direction. Positions went through the eye
+/// space of their pass, and so
 /// were rounded to the precision of the eye's distance.
+bool samePlace(const osg::Light& a, const osg::Light& b, const osg::Vec3d& eye)
+{
+    const osg::Vec3d position = xyz(a.getPosition()), direction(a.getDirection());
+    const double w = a.getPosition().w(), eyeDistance = w != 0.0 ? eye.length() : 0.0;
+    return std::abs(w - b.getPosition().w()) <= 1e-5 * std::abs(w) &&
+           close(position, xyz(b.getPosition()), position.length() + eyeDistance) &&
+           close(direction, osg::Vec3d(b.getDirection()), direction.length());
+}
+
 bool sameLight(const osg::Light* a, const osg::Light* b, const osg::Vec3d& eye)
 {
     if (!a || !b) return a == b;
 
+    if (!samePlace(*a, *b, eye)) return false;
     const osg::ref_ptr<osg::Light> moved = new osg::Light(*b);
-    const osg::Vec3d position = xyz(a->getPosition()), direction(a->getDirection());
-    const double w = a->getPosition().w(), eyeDistance = w != 0.0 ? eye.length() : 0.0;
-    if (std::abs(w - b->getPosition().w()) > 1e-5 * std::abs(w)) return false;
-    if (!close(position, xyz(b->getPosition()), position.length() + eyeDistance)) return false;
-    if (!close(direction, osg::Vec3d(b->getDirection()), direction.length())) return false;
     moved->setPosition(a->getPosition());
     moved->setDirection(a->getDirection());
     return a->compare(*moved) == 0;
@@ -142,9 +158,21 @@ ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor)
 
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b)
 {
-    return a.traversalMask == b.traversalMask && a.viewMasks == b.viewMasks &&
-           a.lightInEyeSpace == b.lightInEyeSpace && a.clearColor == b.clearColor &&
-           sameLight(a.light.get(), b.light.get(), a.eye);
+    if (a.traversalMask != b.traversalMask || a.viewMasks != b.viewMasks ||
+        a.lightInEyeSpace != b.lightInEyeSpace || !a.light != !b.light)
+        return false;
+    // The modes of the state above the scene have the number, and a light in the world has a place.
+    return !a.light || (a.light->getLightNum() == b.light->getLightNum() &&
+                        (a.lightInEyeSpace || samePlace(*a.light, *b.light, a.eye)));
+}
+
+bool keepSame(const ViewingConditions& before, ViewingConditions& now)
+{
+    const bool sameColor = seemsSame(before.clearColor, now.clearColor);
+    if (sameColor) now.clearColor = before.clearColor;
+    const bool light = sameLight(before.light.get(), now.light.get(), before.eye);
+    if (light) now.light = before.light;
+    return sameColor && light;
 }
 
 } // namespace osgRayTrace::engine

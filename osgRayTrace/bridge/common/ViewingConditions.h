@@ -50,8 +50,13 @@ struct ViewingConditions
 /// thread.
 ViewingConditions viewingConditions(osgUtil::CullVisitor& visitor);
 
-/// Returns whether a scene converted for a need not be converted again for b. The eye, the view and
-/// the inherited state are not compared; a light that only moved by rounding is equal.
+/// Returns whether a scene converted for a need not be converted again for b as a whole. The eye,
+/// the view, the inherited state, the background and the light's values are not compared.
 bool convertAlike(const ViewingConditions& a, const ViewingConditions& b);
+
+/// Returns whether the background and the light, as of a scene converted for before, have not
+/// changed. What has changed by rounding alone, or too little to be seen, becomes what it was: so
+/// small steps add up from frame to frame until they count.
+bool keepSame(const ViewingConditions& before, ViewingConditions& now);
 
 } // namespace osgRayTrace::engine

@@ -12,6 +12,8 @@
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 
 #include <memory>
+#include <optional>
+#include <unordered_set>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -54,9 +56,12 @@ struct ConvertedGraph
     bool setsColor = false; ///< see MaterialRules
     MaterialList materials;
     LightSources lights;
-    ConversionCounts lightCounts; ///< counts of setLights
+    ConversionCounts lightCounts;        ///< counts of setLights
+    std::optional<osg::Vec4> clearColor; ///< CollectedGraph::clearColor
     PlacedTexGens texGens;
     CullWatch cullWatch;
+    /// CollectedGraph::inScene; nothing: no conversion has come to its end.
+    std::optional<std::unordered_set<const osg::Node*>> inScene;
     std::vector<uint32_t> instanceGaps, meshGaps; ///< indices that removed parts left
     uint32_t emptyMesh = kInvalid; ///< index of the mesh that instances in gaps refer to
 };

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/common/FlatMatrix.h"
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
@@ -50,6 +51,12 @@ bool canBeInScene(const osg::Drawable& drawable)
     if (drawable.asGeometry()) return true;
     const char* reason = untracedDrawable(drawable);
     return !reason || std::strcmp(reason, "not-traced.custom-drawable") == 0;
+}
+
+/// Returns whether anything that has this place has an area.
+bool showsAnything(const osg::Matrixd& worldFromLocal)
+{
+    return placingMatrix(worldFromLocal, 0.0).has_value();
 }
 
 /// Returns the part of the scene that each leaf has become, by its number.
@@ -167,8 +174,10 @@ bool CullWatch::compare(CulledLeaf& before, WatchedLeaf& values, const CulledLea
     if (!sameStates(before, values, now)) return false;
     if (!sameMatrix(now.worldFromLocal, before.worldFromLocal, eyeDistance))
     {
-        if (!values.use.geometry) return false;
-        changes.moved.push_back({values.use, now.worldFromLocal});
+        if (values.use.geometry)
+            changes.moved.push_back({values.use, now.worldFromLocal});
+        else if (showsAnything(before.worldFromLocal) || showsAnything(now.worldFromLocal))
+            return false;
         before.worldFromLocal = now.worldFromLocal;
     }
     const uint64_t content = hashOf(*now.drawable);

@@ -3,7 +3,7 @@
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
-#include "osgRayTrace/bridge/common/MatrixFault.h"
+#include "osgRayTrace/bridge/common/FlatMatrix.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
 
 #include <cmath>
@@ -76,14 +76,15 @@ bool PlacePatcher::move(const MovedUse& use)
         return refuse(ConversionCause::OtherPaths);
     if (!found->second.patchable) return refuse(ConversionCause::NotAlone);
     const uint32_t index = found->second.uses[use.use].instance;
-    if (matrixFault(use.worldFromLocal, kSmallestVolume))
-        return refuse(ConversionCause::BadTransform);
+    const std::optional<osg::Matrixd> worldFromLocal =
+        placingMatrix(use.worldFromLocal, kSmallestVolume);
+    if (!worldFromLocal) return refuse(ConversionCause::BadTransform);
     if (index == kInvalid) return true;
     if (isPlaceBound(_scene.materials[_scene.instances[index].material]))
         return refuse(ConversionCause::PlaceBound);
     const Vec3d& origin = _scene.origin;
     return place(*use.geometry, index,
-                 use.worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
+                 *worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
 }
 
 bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,

@@ -5,11 +5,11 @@
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 #include "osgRayTrace/bridge/appearance/materials/SurfaceState.h"
+#include "osgRayTrace/bridge/convert/Background.h"
 #include "osgRayTrace/bridge/convert/InstanceOrder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
-#include "osgRayTrace/film/ToneMap.h"
 
 #include <osgRayTrace/AreaLight>
 
@@ -27,16 +27,6 @@ namespace
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
-
-Vec4 backgroundOf(const osg::Vec4& clearColor, bool linear)
-{
-    Vec4 color(clearColor.r(), clearColor.g(), clearColor.b(), clearColor.a());
-    for (int c = 0; c < 4; ++c)
-        if (!std::isfinite(color[c])) color[c] = 0.0f;
-    for (int c = 0; c < 3 && linear; ++c)
-        color[c] = linearFromSrgb(color[c]);
-    return color;
-}
 
 } // namespace
 

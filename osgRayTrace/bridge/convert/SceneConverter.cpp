@@ -126,9 +126,10 @@ CullChanges SceneConverter::lookInCull(const ViewingConditions& conditions)
     return watch.look(input, {caches.vertices, caches.triangles, caches.textures, caches.rules});
 }
 
-const std::unordered_set<const osg::Node*>& SceneConverter::captured() const
+ConvertedNodes SceneConverter::convertedNodes() const
 {
-    return _implementation->convertedGraph.cullWatch.captured();
+    const ConvertedGraph& graph = _implementation->convertedGraph;
+    return {graph.cullWatch.captured(), graph.inScene ? &*graph.inScene : nullptr};
 }
 
 void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& changes) const
@@ -198,6 +199,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.ordinary = rules.unit == 1.0 && lengths.areOrdinary() && !hasClipping(graph.states);
     state.convertedGraph.lights = std::move(graph.lights);
     state.convertedGraph.lightCounts = lightReport.counts();
+    state.convertedGraph.clearColor = graph.clearColor;
+    state.convertedGraph.inScene = std::move(graph.inScene);
     state.convertedGraph.texGens = graph.texGens;
     state.convertedGraph.cullWatch.record(graph,
                                           input.materials ? input.materials->reads : nullptr);
@@ -225,8 +228,14 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     };
     const auto losesStaticBvh = [&state]
     { return state.caches.noStaticBvh && !state.caches.staticMeshes.empty(); };
-    if (!state.last || !state.ordinary) return refused(ConversionCause::NotPatchable);
+    const bool patchable = state.ordinary || changes.isOfTheView();
+    if (!state.last || !patchable) return refused(ConversionCause::NotPatchable);
     if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
+    if (changes.view)
+    {
+        state.input.clearColor = changes.view->clearColor;
+        state.input.viewLight = changes.view->light;
+    }
     ScenePatcher patcher(*state.last, state.input, state.caches, state.convertedGraph,
                          ++state.stamp);
     const std::shared_ptr<const Scene> scene = patcher.patch(changes);

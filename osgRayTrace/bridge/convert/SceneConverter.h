@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/changes/GraphChanges.h"
+#include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 #include "osgRayTrace/bridge/convert/ConversionResult.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
@@ -11,7 +12,6 @@
 
 #include <memory>
 #include <optional>
-#include <unordered_set>
 
 namespace osgRayTrace::engine
 {
@@ -48,8 +48,9 @@ public:
     /// must be applied by patch(), or the graph converted.
     CullChanges lookInCull(const ViewingConditions& conditions);
 
-    /// Returns the nodes whose cull traversals lookInCull() follows.
-    const std::unordered_set<const osg::Node*>& captured() const;
+    /// Returns the nodes whose cull traversals lookInCull() follows, and those that are in the
+    /// scene. The result refers to the last conversion.
+    ConvertedNodes convertedNodes() const;
 
     /// Adds the changes of cull traversals to those of the graph. They take the place of what the
     /// graph tells of geometries that cull traversals alone have shown.

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
+#include "osgRayTrace/bridge/convert/Background.h"
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
@@ -76,7 +77,9 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     if (!moveAndDeform(changes) || !changeStates(changes.stateChanges)) return nullptr;
     if (changes.lights && !relightLamps()) return nullptr;
     takeMaterials();
-    const bool relights = changes.lights || _spliced || !changes.stateChanges.empty();
+    if (changes.view) setBackground();
+    const bool relights =
+        changes.lights || changes.view || _spliced || !changes.stateChanges.empty();
     if (relights && !relight()) return nullptr;
     dropRemoved();
     if (_changed) _scene->changed = _now;
@@ -143,6 +146,14 @@ void ScenePatcher::takeMaterials()
     if (_scene->textures == _caches.textures.all()) return;
     _scene->textures = _caches.textures.all();
     _changed = true;
+}
+
+void ScenePatcher::setBackground()
+{
+    const Vec4 background = backgroundOf(_convertedGraph.clearColor.value_or(_input.clearColor),
+                                         !_scene->displayReferred);
+    _changed |= background != _scene->background;
+    _scene->background = background;
 }
 
 bool ScenePatcher::relight()

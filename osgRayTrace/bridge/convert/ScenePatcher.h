@@ -57,6 +57,7 @@ private:
                      ConversionReport& report);
     bool relightLamps();
     bool relight();
+    void setBackground();
     void takeMaterials();
     void dropRemoved();
     uint32_t emptyMeshIndex();

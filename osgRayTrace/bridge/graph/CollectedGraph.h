@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -113,6 +114,9 @@ struct CollectedGraph
     std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
     std::vector<CullOutcome> cullOutcomes; ///< decisions on subtrees that may draw in cull alone
     bool cullUnknown = false; ///< true: there was no view that could decide on such a subtree
+    /// Outermost nodes on their paths whose class GraphWatch does not know, if anything at or below
+    /// them is traced, has a proxy, shines or places state.
+    std::unordered_set<const osg::Node*> inScene;
     std::vector<const osg::Geometry*> leftGeometries; ///< geometries in groups of rasterized
 };
 

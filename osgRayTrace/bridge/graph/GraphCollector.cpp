@@ -113,6 +113,7 @@ void GraphCollector::apply(osg::LightSource& node)
 {
     if (node.getLight())
     {
+        recordInScene();
         const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
         _graph.lights.lights.push_back(
             {&node, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
@@ -124,6 +125,7 @@ void GraphCollector::apply(osg::LightSource& node)
 /// Keeps the clear colour if OSG draws the background, so that mirrors show the same background.
 void GraphCollector::apply(osg::ClearNode& node)
 {
+    recordInScene();
     if (_input.rasterizesRest && node.getRequiresClear()) _graph.clearColor = node.getClearColor();
     rasterize(RasterizedPart::Clear);
     apply(static_cast<osg::Node&>(node));
@@ -131,6 +133,7 @@ void GraphCollector::apply(osg::ClearNode& node)
 
 void GraphCollector::apply(osg::ClipNode& node)
 {
+    recordInScene();
     rasterize(RasterizedPart::PlaceState);
     const bool inEyeSpace = node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
     const osg::Matrixd engineFromPlane =
@@ -156,6 +159,7 @@ void GraphCollector::apply(osg::ProxyNode& node)
 
 void GraphCollector::apply(osg::TexGenNode& node)
 {
+    recordInScene();
     const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
     if (!inScene && !_input.view)
         _report.count("approximated.absolute-texgen"); // OpenGL has eye space, this world space
@@ -234,6 +238,7 @@ void GraphCollector::apply(osg::Geometry& geometry)
 /// Adds a use of a geometry at the present place. A proxy has no path to pick: OSG's part has it.
 void GraphCollector::collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy)
 {
+    recordInScene();
     const PrimitiveRestart restart = restartOf(_states.states()[state]);
     const auto [found, isNew] =
         _indexOf.try_emplace({&geometry, restart.key()}, _graph.geometries.size());
@@ -299,10 +304,12 @@ bool GraphCollector::pushState(osg::Node& node)
 bool GraphCollector::pushMatrix(const osg::Matrixd& worldFromLocal)
 {
     const char* fault = enterPlace(worldFromLocal);
-    if (fault)
-        _report.warn(fault, "transform '" + path() + "'",
-                     "matrix is singular, projective or not finite, skipped with all below it");
-    return !fault;
+    if (!fault) return true;
+    recordAllInScene();
+    _report.warn(
+        fault, "transform '" + path() + "'",
+        "matrix leaves no area, or is projective or not finite, skipped with all below it");
+    return false;
 }
 
 void GraphCollector::traverseBelow(const osg::Matrixd& worldFromLocal, osg::Node& node)
@@ -318,11 +325,13 @@ bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
+        recordInScene();
         _graph.lights.areaLights.push_back({light, engineFromLocal(), path(), pickPath()});
         return true;
     }
     if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
     {
+        recordInScene();
         _graph.lights.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }

@@ -112,6 +112,8 @@ private:
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     float pointRadiusOf(const osg::Geometry& geometry);
+    void recordInScene();
+    void recordAllInScene();
     void collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy);
     bool isProxied(osg::Drawable& drawable);
     bool isProxied(const CulledLeaf& leaf);

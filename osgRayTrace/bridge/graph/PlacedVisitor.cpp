@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/PlacedVisitor.h"
 
-#include "osgRayTrace/bridge/common/MatrixFault.h"
+#include "osgRayTrace/bridge/common/FlatMatrix.h"
 
 namespace osgRayTrace::engine
 {
@@ -48,9 +48,10 @@ float PlacedVisitor::getDistanceToViewPoint(const osg::Vec3& position, bool useL
 
 const char* PlacedVisitor::enterPlace(const osg::Matrixd& worldFromLocal)
 {
-    const char* fault = matrixFault(worldFromLocal, kSmallestVolume);
-    if (!fault) _worldFromLocal.push_back(worldFromLocal);
-    return fault;
+    const std::optional<osg::Matrixd> place = placingMatrix(worldFromLocal, kSmallestVolume);
+    if (!place) return matrixFault(worldFromLocal, kSmallestVolume);
+    _worldFromLocal.push_back(*place);
+    return nullptr;
 }
 
 osg::Matrixd PlacedVisitor::worldBelow(const osg::Transform& node)

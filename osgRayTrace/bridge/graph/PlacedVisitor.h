@@ -33,8 +33,8 @@ protected:
     /// The input must live as long as the visitor.
     explicit PlacedVisitor(const ConversionInput& input);
 
-    /// Moves to a place. Returns null, or what is wrong with the matrix, a key of ConversionCounts:
-    /// then it stays where it is.
+    /// Moves to a place, or nearly if the matrix flattens things. Returns null, or what is wrong
+    /// with the matrix, a key of ConversionCounts: then it stays where it is.
     const char* enterPlace(const osg::Matrixd& worldFromLocal);
 
     /// Returns the world matrix below a transform at the place.

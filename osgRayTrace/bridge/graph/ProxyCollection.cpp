@@ -23,7 +23,8 @@ void GraphCollector::apply(osg::Drawable& drawable)
     }
     if (!_input.rasterizesRest || !isSurface) return;
     if (!isProxied(drawable)) return;
-    ++_untracked; // graphHash looks at the drawable
+    recordInScene(); // with or without triangles as yet
+    ++_untracked;    // graphHash looks at the drawable
     if (const osg::Geometry* triangles = _triangles.of(drawable))
         collectUse(*triangles, assignedState(drawable).state, true);
     --_untracked;

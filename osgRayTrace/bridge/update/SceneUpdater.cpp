@@ -227,10 +227,11 @@ void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions condition
     const ConversionSettings settings = conversionSettings(
         *_settings, _materialFile.materials(_settings->getMaterials(), _asked.dirty));
     if (settings.materials) conditions.reads = settings.materials->reads;
+    const bool sameView = _conditions && keepSame(*_conditions, conditions);
     const bool sameRoot = _root == root;
     const ConversionCause cause = causeToConvert(sameRoot, conditions, settings);
     const bool same = cause == ConversionCause::None && !_asked.dirty;
-    if (seen && same) return;
+    if (seen && same && sameView) return;
     if (frameStamp) _frameNumber = frameStamp->getFrameNumber();
     if (!root && same) return;
 
@@ -252,6 +253,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions condition
     GraphChanges changes = look(*root, same, sameRoot, conditions);
     _converter.addCullChanges(cull, changes);
     if (!same) changes.reason.cause = cause;
+    if (!sameView) changes.view = {conditions.clearColor, conditions.light};
     const Requests asked = std::exchange(_asked, Requests());
     if (changes.none()) return;
 
@@ -312,7 +314,8 @@ GraphChanges SceneUpdater::look(osg::Node& root, bool same, bool sameRoot,
     {
         // The watch looks even if the conditions differ: all changes are then known, and the next
         // look finds none of them.
-        GraphChanges found = _watch.look(root, conditions, _converter.captured());
+        const ConvertedNodes converted = _converter.convertedNodes();
+        GraphChanges found = _watch.look(root, conditions, &converted);
         const bool record = found.record;
         if (same) changes = std::move(found);
         changes.record = record;
