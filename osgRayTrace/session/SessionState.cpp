@@ -116,6 +116,7 @@ bool SessionState::begin()
     progress.restarted = true;
     photonsCounted = 0;
     progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    photons.setOptional(photonsAreOptional(options.integrator, scene->traits()));
     hasSamples = false;
     if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
     {
