@@ -40,6 +40,7 @@ struct TileError
     double typicalSquares = 0.0; ///< the same, relative to max(r, R)
     float worst = 0.0f;          ///< largest sum over RGB of a pixel
     BiasProducts bias;           ///< relative to R
+    double luminanceScale = 0.0; ///< turns a square of luminance into the sum of relative squares
 };
 
 using PixelSquares = FloatLanes[kTileBlocks];
@@ -147,6 +148,17 @@ void squaresOf(const TileHalves& halves, const TileScale& scale, PixelSquares& s
     }
 }
 
+/// Returns the sum over RGB of the relative squares of a difference that has a luminance of 1 and
+/// the colour of the tile.
+double luminanceScaleOf(const TileHalves& halves, const TileScale& scale)
+{
+    const Vec3d mean(scale.mean[0], scale.mean[1], scale.mean[2]);
+    const double tileLuminance = static_cast<double>(luminance(Vec3(mean)));
+    if (!(tileLuminance > 0.0) || !(halves.squareScale > 0.0)) return 0.0;
+    const Vec3d inverse(scale.inverse[0], scale.inverse[1], scale.inverse[2]);
+    return glm::dot(mean * mean, inverse) / (halves.squareScale * tileLuminance * tileLuminance);
+}
+
 /// differences: those of the tile; null: there are none.
 TileError errorOf(const Film& film, int tile, const DiscDifferences* differences)
 {
@@ -161,6 +173,7 @@ TileError errorOf(const Film& film, int tile, const DiscDifferences* differences
         error.bias = biasProducts(*differences, film.tilePasses(tile),
                                   Vec3d(scale.inverse[0], scale.inverse[1], scale.inverse[2]) /
                                       halves.squareScale);
+    error.luminanceScale = luminanceScaleOf(halves, scale);
     for (const FloatLanes& block : squares)
     {
         for (int i = 0; i < kLanes; ++i)
@@ -232,7 +245,8 @@ double medianOf(std::vector<double> values)
 } // namespace
 
 ErrorEstimate estimateError(const Film& film, const Workers& workers,
-                            const std::vector<DiscDifferences>& differences)
+                            const std::vector<DiscDifferences>& differences,
+                            const FootprintBiases& footprints)
 {
     if (film.passes() < 2 || !(film.errorScale(0) > 0.0f)) return {};
     std::vector<TileError> tiles(static_cast<std::size_t>(film.tileCount()));
@@ -245,14 +259,17 @@ ErrorEstimate estimateError(const Film& film, const Workers& workers,
     double squares = 0.0;
     std::vector<double> typical(tiles.size()), pixels(tiles.size());
     std::vector<BiasProducts> biases(tiles.size());
+    std::vector<double> scales(tiles.size());
     for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     {
         squares += tiles[tile].squares;
         pixels[tile] = static_cast<double>(pixelsOf(film, static_cast<int>(tile)));
         typical[tile] = tiles[tile].typicalSquares / (kColors * pixels[tile]);
         biases[tile] = tiles[tile].bias;
+        scales[tile] = tiles[tile].luminanceScale;
     }
-    squares += squaredBias(biases, pixels);
+    squares += std::max(squaredBias(biases, pixels), squaredBias(footprints.compared, scales) +
+                                                         squaredBias(footprints.later, scales));
     const double values = kColors * double(film.width()) * film.height();
     ErrorEstimate estimate;
     estimate.relative = std::sqrt(squares / values);

@@ -31,9 +31,19 @@ struct ErrorEstimate
     double worstShare = 0.0;
 };
 
+/// Holds the bias that pixels have seen in discs, by tile; empty if none has compared any. The
+/// parts are judged one by one, and so neither hides the other.
+struct FootprintBiases
+{
+    std::vector<FootprintBias> compared; ///< the part of the passes that were compared
+    std::vector<FootprintBias> later;    ///< that of later ones, in pixels that still take discs
+};
+
 /// Returns the estimate for the whole image, from its two halves [Rousselle12, sect. 3].
-/// differences: by tile, or empty if no photons were looked up.
+/// differences: by tile, or empty if no photons were looked up. The bias is the larger one that
+/// differences and footprints tell.
 ErrorEstimate estimateError(const Film& film, const Workers& workers,
-                            const std::vector<DiscDifferences>& differences = {});
+                            const std::vector<DiscDifferences>& differences = {},
+                            const FootprintBiases& footprints = {});
 
 } // namespace osgRayTrace::engine

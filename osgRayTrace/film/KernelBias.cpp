@@ -24,6 +24,11 @@ constexpr double kSignificance = 2.0;
 /// two, which a few bright photons can make.
 constexpr double kSpread = 1.5;
 
+/// Pixels beside each other share photons of their discs, but none of their footprints, which make
+/// most of the noise: the variance of sums over pixels is no more than so many times that of as
+/// many independent ones.
+constexpr double kSharedPhotons = 4.0;
+
 /// Returns which of a tile's compared blocks a pass compares.
 int placeOf(int pass)
 {
@@ -98,6 +103,25 @@ double squaredBias(const std::vector<BiasProducts>& tiles, const std::vector<dou
     if (!seen || !(same > kSpread * std::sqrt(squares))) return 0.0;
     const double ratio = std::clamp(next / same, kSmoothRatio, kFoldRatio);
     return same / ((1.0 - ratio) * (1.0 - ratio));
+}
+
+void FootprintBias::addPixel(int compared, double sum, double sumOfSquares, double biasedShare)
+{
+    if (compared < 2) return;
+    const double scale = biasedShare * biasedShare / (double(compared) * (compared - 1.0));
+    squares += scale * (sum * sum - sumOfSquares);
+    variance += 2.0 * scale * scale * sumOfSquares * sumOfSquares;
+}
+
+double squaredBias(const std::vector<FootprintBias>& tiles, const std::vector<double>& scales)
+{
+    double squares = 0.0, variance = 0.0;
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+    {
+        squares += tiles[t].squares * scales[t];
+        variance += tiles[t].variance * scales[t] * scales[t];
+    }
+    return squares > kSignificance * std::sqrt(kSharedPhotons * variance) ? squares : 0.0;
 }
 
 } // namespace osgRayTrace::engine

@@ -52,4 +52,23 @@ BiasProducts biasProducts(const DiscDifferences& differences, int passes, const 
 /// whole image.
 double squaredBias(const std::vector<BiasProducts>& tiles, const std::vector<double>& pixels);
 
+/// Holds what the pixels of a tile know of the bias of their discs from the photons of their own
+/// footprints, which have no bias: PathFootprints.cpp. Of luminance, summed over the pixels.
+struct FootprintBias
+{
+    double squares = 0.0;  ///< squared bias of the mean of all passes; has no bias itself
+    double variance = 0.0; ///< variance of squares if there is no bias
+
+    /// Adds a pixel that has compared this many passes. sum: of the disc's luminance less that of
+    /// the footprint; sumOfSquares: of the squares of these differences. biasedShare: of the
+    /// image's passes, those whose discs have that bias, each by as much as the compared ones. The
+    /// products of the differences of two passes have the squared bias as their mean:
+    ///
+    ///   E[sum^2 - sumOfSquares] = compared (compared - 1) bias^2
+    void addPixel(int compared, double sum, double sumOfSquares, double biasedShare);
+};
+
+/// Returns the sum over tiles of scales[t] times the squared bias of tile t; 0 if it may be noise.
+double squaredBias(const std::vector<FootprintBias>& tiles, const std::vector<double>& scales);
+
 } // namespace osgRayTrace::engine

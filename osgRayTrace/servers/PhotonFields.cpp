@@ -22,15 +22,16 @@ namespace
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too.
 static_assert(sizeof(SeenPlane) == 28 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8);
-static_assert(sizeof(GatheredPhotons) == 5552);
+static_assert(sizeof(GatheredPhotons) == 5560);
 #endif
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
 {
-    a(p.plane.normal, p.plane.offset, p.lookup, p.edge, p.difference, p.squares);
+    a(p.plane.normal, p.plane.offset, p.lookup, p.edge, p.undecided, p.compared, p.difference,
+      p.squares);
 }
 
-constexpr std::size_t kPlaneBytes = sizeof(Plane) + 2 * sizeof(float) + 2;
+constexpr std::size_t kPlaneBytes = sizeof(Plane) + 2 * sizeof(float) + 4;
 
 void putPlanes(WireWriter& out, const TilePhotons& photons)
 {
@@ -76,7 +77,7 @@ void putFound(WireWriter& out, const TilePhotons& photons)
 {
     const GatheredPhotons& g = photons.gathered;
     const bool hasPlanes = g.choosesPlanes && !photons.planes.empty();
-    out(g.separate, g.comparedBlock, hasPlanes);
+    out(g.separate, g.carried, g.comparedBlock, hasPlanes);
     out.append(g.radius, sizeof g.radius);
     if (g.separate) out.append(g.count, sizeof g.count);
     if (g.separate) out.append(g.flux, sizeof g.flux);
@@ -89,7 +90,7 @@ void takeFound(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasPlanes = false;
-    in(g.separate, g.comparedBlock, hasPlanes);
+    in(g.separate, g.carried, g.comparedBlock, hasPlanes);
     in.copy(g.radius, sizeof g.radius);
     if (g.separate) in.copy(g.count, sizeof g.count);
     if (g.separate) in.copy(g.flux, sizeof g.flux);

@@ -71,6 +71,25 @@ std::vector<SeenSquares> squaresOf(const std::vector<SeenPhoton>& seen, const Rg
     return result;
 }
 
+/// Photons of glossy surfaces end if the mean over tiles of the squared share of the light that
+/// they carry is below this. A path meets such light with a probability of a thousandth or more, so
+/// it has a relative variance of 0.01 at most then, where those of whole pictures are 0.05 and
+/// more.
+constexpr double kLeastCarried = 1e-5;
+
+/// Returns the square of the share of a tile's light that photons carry, relative as in
+/// ErrorEstimate::relative.
+double carriedSquare(const GatheredPhotons& gathered, const RgbaLanes* rgba)
+{
+    double sum = 0.0;
+    for (int b = 0; b < kTileBlocks; ++b)
+        for (int i = 0; i < kLanes; ++i)
+            sum += static_cast<double>(luminance(Vec3(rgba[b].r[i], rgba[b].g[i], rgba[b].b[i])));
+    const double mean = sum / kTilePixels,
+                 carried = static_cast<double>(gathered.carried) / kTilePixels;
+    return carried * carried / (mean * mean + 0.01);
+}
+
 PhotonPassOptions passOptions(const RenderOptions& options)
 {
     PhotonPassOptions result;
@@ -96,7 +115,7 @@ void PhotonState::reset(int tileCount)
     _pass.reset();
     _least = _largest = 0.0f;
     _shrink = 1.0f;
-    _dark = _limited = _stored = _guides = false;
+    _dark = _limited = _stored = _guides = _ended = false;
     _preparedPass = -1;
     _pixels = static_cast<std::size_t>(tileCount) * kTilePixels;
     std::vector<float>().swap(_firstRadii);
@@ -106,6 +125,7 @@ void PhotonState::reset(int tileCount)
     std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
+    std::vector<double>().swap(_carried);
     _passes->forgetSeen(_view);
 }
 
@@ -136,6 +156,7 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
         _cellRadius *= 4.0f;
+    if (_optional) _carried.assign(_pixels / kTilePixels, 0.0);
     if (options.photonGuiding && options.photons > 0 && density.guideBins > 0)
     {
         _seen.resize(_pixels / kTilePixels);
@@ -169,6 +190,7 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
 int PhotonState::sharedPasses() const
 {
     if (_idle || !(_largest > 0.0f)) return 0;
+    if (_ended) return PhotonPasses::kFirst;
     if (!_planes.empty()) return kChoosingPasses;
     return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
 }
@@ -181,12 +203,13 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.photonUse = options.use;
     if (options.use == PhotonUse::None) return;
     choose(traced, context, workers);
-    if (_idle)
+    if (_idle || (_ended && pass >= PhotonPasses::kFirst))
     {
         context.photonUse = PhotonUse::None;
         return;
     }
     _differences.resize(_pixels / kTilePixels);
+    _alpha = context.options.photonAlpha;
     _shrink = static_cast<float>(
         std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
@@ -204,7 +227,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
 void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
                          const PassContext& context, int pass)
 {
-    if (_idle) return;
+    if (_idle || _ended) return;
+    if (pass + 1 == PhotonPasses::kFirst) endIfUnneeded();
     sumUpSeen();
     if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
     _passes->recordSeen(photonScene(traced, context), _view, std::move(_seenSquares));
@@ -217,6 +241,45 @@ double PhotonState::secondsOf(int pass) const
 {
     if (!_pass || pass == _preparedPass || _passes->keeps(pass)) return 0.0;
     return _pass->seconds;
+}
+
+// Passes that may choose count alike for all pixels: whether a pixel has changed over to its
+// footprint hangs on its differences, and only the sum over all pixels has no bias then. Pixels
+// that still take discs are biased in later passes, too. Bias is taken to go with the radius,
+// between its square for smooth light and its root at a fold caustic; means of the radius over n
+// passes go with n^((alpha - 1) / 2) [Knaus11].
+FootprintBiases PhotonState::footprintBiases(int passes) const
+{
+    const std::size_t count = _planes.size() / kTilePixels;
+    FootprintBiases biases{std::vector<FootprintBias>(count), std::vector<FootprintBias>(count)};
+    const double choosing = std::min(passes, kChoosingPasses);
+    const double all = std::pow(choosing / passes, 0.5 - 0.5 * static_cast<double>(_alpha));
+    const double later = std::sqrt(std::max(0.0, all * all - std::pow(choosing / passes, 2.0)));
+    for (std::size_t p = 0; p < _planes.size(); ++p)
+    {
+        const SeenPlane& known = _planes[p];
+        if (known.compared == 0) continue;
+        const double sum = static_cast<double>(known.difference);
+        const double squares = static_cast<double>(known.squares);
+        const double share = static_cast<double>(known.undecided + known.compared) / passes;
+        biases.compared[p / kTilePixels].addPixel(known.compared, sum, squares, share);
+        if (known.lookup != PixelLookup::Footprint)
+            biases.later[p / kTilePixels].addPixel(known.compared, sum, squares, later);
+    }
+    return biases;
+}
+
+/// Leaves all light to paths from the next pass on if photons have carried next to nothing. Passes
+/// decide alike wherever they are made, as all of them depend on the first ones: sharedPasses.
+void PhotonState::endIfUnneeded()
+{
+    if (_carried.empty()) return;
+    double sum = 0.0;
+    for (const double tile : _carried)
+        sum += tile / static_cast<double>(_carried.size());
+    _ended = sum < PhotonPasses::kFirst * kLeastCarried;
+    if (_ended) _pass.reset();
+    std::vector<double>().swap(_carried);
 }
 
 /// Sums up the contributions that a whole pass saw, in the order of the tiles. The sums therefore
@@ -283,6 +346,8 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
+    if (!_carried.empty())
+        _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "osgRayTrace/film/KernelBias.h"
+#include "osgRayTrace/film/ErrorEstimate.h"
 #include "osgRayTrace/integrators/shared/HitPoints.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
@@ -46,6 +46,10 @@ public:
     /// Begins a new image. tileCount is the number of the film's tiles.
     void reset(int tileCount);
 
+    /// Tells whether photons may end once the view has seen that they carry next to nothing of its
+    /// light: paths find that light then.
+    void setOptional(bool optional) { _optional = optional; }
+
     /// Chooses the least and the largest radius, unless they are chosen.
     void choose(const std::shared_ptr<const TracedScene>& traced, const PassContext& context,
                 const Workers& workers);
@@ -74,6 +78,10 @@ public:
     /// Returns by tile what discs of other radii would have added; empty if no photons are looked
     /// up.
     const std::vector<DiscDifferences>& discDifferences() const { return _differences; }
+
+    /// Returns by tile what pixels have learnt about the bias of their discs, for the mean of so
+    /// many passes from the first one on; empty if no pixels compare discs with footprints.
+    FootprintBiases footprintBiases(int passes) const;
 
     /// Returns the tile's hit points for the half of the film that the pass belongs to, if passes
     /// share camera paths, as those of Ppm do; otherwise null. A tile drops its hit points if they
@@ -105,6 +113,7 @@ private:
     void chooseRadii(const PhotonScene& scene, const PassContext& context, const Workers& workers);
     void fillRadii(std::size_t firstPixel);
     void sumUpSeen();
+    void endIfUnneeded();
     bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _guides && !_local; }
 
     std::shared_ptr<PhotonPasses> _passes;
@@ -116,14 +125,18 @@ private:
     float _largest = 0.0f;
     float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
     float _cellSize = 0.0f;
+    float _alpha = 1.0f;  ///< of the radius schedule
     float _shrink = 1.0f; ///< radius of the pass at work over the first one, global schedule
     bool _local = false;
     /// True: the photons are for caustics, but nothing makes caustics, so all paths are traced from
     /// the eye.
     bool _idle = false;
-    bool _dark = false;    ///< true: photons are emitted, but no light has power
-    bool _limited = false; ///< true: the radius that was set is not the one in use
-    bool _stored = false;  ///< true: some pass has stored photons
+    bool _optional = false;       ///< true: photons end if they carry next to nothing
+    bool _ended = false;          ///< true: paths find all light from pass PhotonPasses::kFirst on
+    std::vector<double> _carried; ///< by tile: carriedSquare; empty unless photons may end
+    bool _dark = false;           ///< true: photons are emitted, but no light has power
+    bool _limited = false;        ///< true: the radius that was set is not the one in use
+    bool _stored = false;         ///< true: some pass has stored photons
     /// True: from pass PhotonPasses::kFirst on photons are guided to places that this view has
     /// seen.
     bool _guides = false;

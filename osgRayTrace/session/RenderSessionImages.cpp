@@ -39,7 +39,8 @@ ErrorEstimate SessionState::estimateError() const
     const int passes = film.passes();
     const bool whole = filmPasses == PassSet(passes) && ownPasses == passes;
     if (!whole) return engine::estimateError(film, *workers, {});
-    return engine::estimateError(film, *workers, photons.discDifferences());
+    return engine::estimateError(film, *workers, photons.discDifferences(),
+                                 photons.footprintBiases(passes));
 }
 
 /// Writes the image to the display. If over is true, tiles without a pass are left as they are.

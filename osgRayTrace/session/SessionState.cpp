@@ -150,6 +150,7 @@ bool SessionState::begin()
     progress.restarted = true;
     photonsCounted = 0;
     progress.integrator = integratorOf(options, scene->traits());
+    photons.setOptional(!options.moving && photonsAreOptional(options.integrator, scene->traits()));
     hasSamples = false;
     if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)
     {
@@ -180,7 +181,7 @@ bool SessionState::beginView()
     filmOptions = options;
     filmSeed = options.seed;
     filmCentred = centred;
-    progress.integrator = chooseIntegrator(options.integrator, scene->traits());
+    progress.integrator = integratorOf(options, scene->traits());
     filmScene = scene;
     return true;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/PValues.h"
 #include "tests/photons/KnownPatches.h"
 
 using namespace osgRayTrace::engine;
@@ -95,7 +96,60 @@ RenderOptions optionsFor(IntegratorKind kind, RadiusSchedule schedule, int photo
     return options;
 }
 
+/// Counts pictures by how their true error compares with the stated one.
+struct Covered
+{
+    int pictures = 0, above = 0, below = 0;
+};
+
+/// Renders pictures of a patch with independent seeds, half of them with 8 passes, the others with
+/// 32, and the radii that the scene gives.
+void countCovered(const KnownPatch& patch, IntegratorKind kind, Covered& covered)
+{
+    constexpr int kPixels = 48;
+    constexpr uint32_t kPictures = 8;
+    const auto traced = patch.builder.build();
+    const std::vector<double> expected = truth(patch, kPixels);
+    RenderOptions options = optionsFor(kind, RadiusSchedule::Global, 1 << 15, 0.0f);
+    for (options.seed = 0; options.seed < kPictures; ++options.seed)
+    {
+        const int passes = options.seed % 2 ? 32 : 8;
+        RenderSession session(std::make_shared<Workers>(0));
+        session.setScene(traced);
+        session.setView(viewOf(patch, kPixels));
+        session.setOptions(options);
+        StopRule rule;
+        rule.passes = passes;
+        REQUIRE(session.render(rule).passes == passes);
+        const double stated = session.estimateError().relative;
+        const double ratio = trueError(session.resolveRadiance(), expected, kPixels) / stated;
+        ++covered.pictures;
+        covered.above += ratio > 1.4;
+        covered.below += ratio < 0.7;
+    }
+}
+
+/// Returns the probability of so many of n pictures or more if each is one of them with p.
+double tailOf(int count, int n, double p)
+{
+    return count == 0 ? 1.0 : incompleteBeta(count, n - count + 1.0, p);
+}
+
 } // namespace
+
+// The rate that is claimed: in nine of ten pictures the true error is at most 1.4 times the stated
+// one, and in nine of ten it is at least 0.7 times. Either check fails by chance once in a thousand
+// times if that is just met.
+TEST_CASE("bias estimate: covers the true error in nine of ten pictures", "[photons][statistics]")
+{
+    Covered covered;
+    for (const KnownPatch& patch : {flatMirrorPatch(), nephroidPatch(), causticPatch()})
+        for (const IntegratorKind kind : {IntegratorKind::PhotonCaustics, IntegratorKind::Sppm})
+            countCovered(patch, kind, covered);
+    CAPTURE(covered.pictures, covered.above, covered.below);
+    CHECK(tailOf(covered.above, covered.pictures, 0.1) > 1e-3);
+    CHECK(tailOf(covered.below, covered.pictures, 0.1) > 1e-3);
+}
 
 TEST_CASE("bias estimate: of smooth light by a flat mirror", "[photons][statistics]")
 {

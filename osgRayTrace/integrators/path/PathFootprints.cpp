@@ -224,11 +224,15 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = planes[pixel];
         if (known.lookup == PixelLookup::Undecided)
+        {
             known = planeToCompare(tile, pixel, bounce, queries, i);
+            ++known.undecided;
+        }
         if (!((footprints.compared >> i) & 1u)) continue;
         const float difference =
             luminance(laneOf(discRadiance, i)) - luminance(laneOf(footprints.radiance, i));
         if (!std::isfinite(difference * difference)) continue;
+        ++known.compared;
         known.difference += difference;
         known.squares += difference * difference;
         if (known.difference * known.difference > significance * significance * known.squares)

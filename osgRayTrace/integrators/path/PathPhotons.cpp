@@ -163,7 +163,10 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     FootprintSums footprints;
     const PhotonQueryLanes queries = queriesOf(tile, block, bounce, footprints);
     for (const int i : lanesIn(footprints.chosen))
+    {
         tile.sums.add(block.flagsOf(i), laneOf(footprints.radiance, i));
+        gathered.carried += luminance(laneOf(footprints.radiance, i));
+    }
     if (!queries.lanes) return;
     PhotonSumLanes sums;
     gatherLanes(tile, queries, block, bounce, sums);
@@ -177,6 +180,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
         const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
         setLane(radiance, i, flux / discArea);
+        gathered.carried += luminance(flux) / discArea;
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sums.count[i] <= kMostRecordedPhotons)
             recordSeen(*tile.context.photons, laneOf(queries, i), luminance(flux) / discArea,

@@ -15,6 +15,13 @@ IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits
     return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 
+bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits)
+{
+    // A texture may make a part of the metal a mirror, whose light paths cannot find.
+    return wanted == IntegratorKind::Automatic && !traits.specular && !traits.transmission &&
+           !traits.textures;
+}
+
 PhotonUse photonUse(IntegratorKind kind)
 {
     switch (kind)

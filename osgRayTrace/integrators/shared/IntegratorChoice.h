@@ -18,4 +18,8 @@ PhotonUse photonUse(IntegratorKind kind);
 /// transmits, or if there are lights other than a sky and some metal is glossy.
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
 
+/// Returns whether chooseIntegrator took photons for glossy metal alone: all light that they carry
+/// could be found by paths as well, if perhaps with much noise.
+bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits);
+
 } // namespace osgRayTrace::engine

@@ -61,6 +61,8 @@ struct SeenPlane
     Plane plane; ///< set in pixels that are compared, or take the photons of their footprint
     PixelLookup lookup = PixelLookup::Undecided;
     DiscEdge edge = DiscEdge::Unknown;
+    // Passes of those that may choose: before the pixel compared, and those that it compared.
+    uint8_t undecided = 0, compared = 0;
     // Sums over the passes that were compared, of the luminance by the disc less that by the
     // footprint, and of its square.
     float difference = 0.0f, squares = 0.0f;
@@ -82,6 +84,9 @@ struct GatheredPhotons
     bool separate = false;
     uint32_t count[kTilePixels] = {};
     Vec3 flux[kTilePixels] = {}; ///< flux times the path's throughput [W/sr]
+
+    /// The luminance that photons have added to the pixels of the tile, summed up.
+    float carried = 0.0f;
 
     /// The block of the tile whose pixels compare discs of several radii (see DiscDifferences), and
     /// the differences of its lanes. -1: no block does.
