@@ -150,7 +150,7 @@ TEST_CASE("wire: only what has changed travels, and the rest stays where it was"
         for (int i = 0; i < 20; ++i)
         {
             scene.meshes.back() = nullptr;
-            scene.meshes.back() = sphereMesh(Vec3(200, 100, float(i)), 50.0f, 3 + i % 3);
+            scene.meshes.back() = sphereMesh(Vec3(200, 100, float(i)), 50.0f, 3);
             const auto after = receiver.take(sender.message(scene));
             REQUIRE(after);
             CHECK(sceneDigest(*after) == sceneDigest(scene));
@@ -185,6 +185,39 @@ TEST_CASE("wire: pictures of a scene that has travelled are the same bit by bit"
         const View view = cornellView(40, 40);
         CHECK(render(there, view, options, 2, 1).rgba ==
               render(builder.build(1), view, options, 2, 1).rgba);
+    }
+}
+
+TEST_CASE("wire: scenes that the engine could not trace are refused", "[servers]")
+{
+    const std::vector<std::pair<Edit, std::string>> wrong = {
+        {ofMesh([](Mesh& m) { m.triangles = std::vector<UVec3>{UVec3(0, 1, 3)}; }),
+         "a mesh has a triangle of vertices that it lacks"},
+        {ofMesh(
+             [](Mesh& m) {
+                 m.positions = std::vector<Vec3>{Vec3(0.0f), Vec3(1.0f), Vec3(kInfinity)};
+             }),
+         "a mesh has a position that is not finite"},
+        {ofMesh([](Mesh& m) { m.colors = std::vector<Vec4>(2); }),
+         "the arrays of a mesh are of different lengths"},
+        {ofTexture([](Texture& t) { t.mips.resize(1); }),
+         "a texture is not of the size that it says"},
+        {[](Scene& s) { s.unit = 0.0; }, "a scene has no place"},
+        {[](Scene& s) { s.materials.clear(); }, "a scene has no materials"},
+        {[](Scene& s) { s.instances[0].mesh = 2; }, "an instance names what the scene lacks"},
+        {[](Scene& s) { s.materials[0].second.texture = 1; },
+         "a material names a texture that the scene lacks"},
+        {[](Scene& s) { s.lights[1].kind = LightKind::Mesh; },
+         "a light names an instance that the scene lacks"},
+    };
+    for (const auto& [edit, fault] : wrong)
+    {
+        Scene scene = tracedScene();
+        edit(scene);
+        SceneSender sender;
+        SceneReceiver receiver;
+        CHECK(!receiver.take(sender.message(scene)));
+        CHECK(receiver.fault() == fault);
     }
 }
 

@@ -6,7 +6,9 @@
 
 #include "osgRayTrace/servers/ServerPool.h"
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -177,6 +179,45 @@ TEST_CASE("servers: one that is silent for long is left, and helps again when it
     REQUIRE(!notes.empty());
     CHECK(waitForHelp(*pool, pool, scene, options));
     CHECK(notes.front() == "server server does not answer: the others trace its tiles");
+}
+
+TEST_CASE("servers: the viewer traces what a server never sends", "[servers]")
+{
+    /// A line on which orders of tiles are lost.
+    class LossyLink : public Link
+    {
+    public:
+        explicit LossyLink(std::unique_ptr<Link> link) : _link(std::move(link)) {}
+        bool send(const Bytes& message) override
+        {
+            const bool isLost = message[0] == static_cast<uint8_t>(MessageKind::Tiles);
+            return isLost || _link->send(message);
+        }
+        bool receive(Bytes& message) override { return _link->receive(message); }
+
+    private:
+        std::unique_ptr<Link> _link;
+    };
+    const auto scene = cornellBox().build(1);
+    const RenderOptions options = optionsOf(IntegratorKind::Whitted);
+    const Image alone = imageOf(scene, options, nullptr);
+    // The clock stops before the pool takes the server for gone.
+    const double begin = 1e-9 * double(std::chrono::steady_clock::now().time_since_epoch().count());
+    const auto halfSecond = [begin]
+    {
+        const auto time = std::chrono::steady_clock::now().time_since_epoch();
+        return std::min(1e-9 * double(time.count()) - begin, 0.5);
+    };
+    const auto pool = std::make_shared<ServerPool>(halfSecond);
+    ThreadServer server{Fate{}};
+    pool->add("server", std::make_unique<LossyLink>(server.connect()));
+    for (int i = 0; i < 20; ++i)
+    {
+        CHECK(imageOf(scene, options, pool) == alone);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK(pool->serversIn() == 1);
+    CHECK(pool->tilesTraced() == 0);
 }
 
 TEST_CASE("servers: scenes that change arrive as changes", "[servers]")

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/servers/ThreadServer.h"
 
-#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/servers/TileServer.h"
 
 #include <algorithm>
@@ -64,6 +63,14 @@ struct ThreadServer::Thread
 namespace
 {
 
+/// Returns the workers of all servers. They are made once, by the thread of the tests:
+/// ThreadSanitizer does not see how TBB hands memory from one thread to another.
+const std::shared_ptr<Workers>& workersOfAll()
+{
+    static const std::shared_ptr<Workers> workers = std::make_shared<Workers>(1);
+    return workers;
+}
+
 template <class Line> class ThreadLink : public Link
 {
 public:
@@ -88,7 +95,7 @@ private:
 } // namespace
 
 ThreadServer::ThreadServer(const Fate& fate)
-    : _line(std::make_shared<Line>()), _thread(std::make_unique<Thread>())
+    : _line(std::make_shared<Line>()), _workers(workersOfAll()), _thread(std::make_unique<Thread>())
 {
     _line->random.seed(fate.seed);
     _line->longestDelay = fate.longestDelay;
@@ -121,7 +128,7 @@ void ThreadServer::run(const Fate& fate)
     int traces = fate.traces, slowGroups = fate.slowGroups;
     while (!_thread->ends)
     {
-        TileServer server(std::make_shared<Workers>(1), send);
+        TileServer server(_workers, send);
         while (!_thread->ends && !_thread->dies && traces != 0)
         {
             Bytes message;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/servers/Link.h"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ private:
     void run(const Fate& fate);
 
     std::shared_ptr<Line> _line;
+    std::shared_ptr<Workers> _workers;
     struct Thread;
     std::unique_ptr<Thread> _thread;
 };
