@@ -2,15 +2,23 @@
 # (osgRayTrace::OSG), once, because CMake's own FindOpenSceneGraph defines none; the wrapper is
 # installed for consumers as well.
 # SPDX-License-Identifier: MIT
-include(OsgRayTraceOpenSceneGraph)
+if(OSGRAYTRACE_OSG)
+    include(OsgRayTraceOpenSceneGraph)
+    find_package(nlohmann_json REQUIRED CONFIG)
+endif()
 
+# Embree 4 is taken before Embree 3; embree_ROOT names the folder of one that the system does not have. Both may be
+# installed, so the headers to include are told.
 find_package(embree 4 QUIET CONFIG)
 if(NOT embree_FOUND)
     find_package(embree 3.12 REQUIRED CONFIG)
 endif()
+message(STATUS "Embree: version ${embree_VERSION}")
+add_library(osgRayTraceEmbree INTERFACE)
+target_link_libraries(osgRayTraceEmbree INTERFACE embree)
+target_compile_definitions(osgRayTraceEmbree INTERFACE OSGRAYTRACE_EMBREE=${embree_VERSION_MAJOR})
 find_package(TBB REQUIRED CONFIG)
 find_package(glm REQUIRED CONFIG)
-find_package(nlohmann_json REQUIRED CONFIG)
 find_package(Threads REQUIRED)
 
 # Open Image Denoise is optional (OSGRAYTRACE_HAS_OIDN). Its package accepts only a version of the
@@ -28,6 +36,10 @@ else()
         message(STATUS "Open Image Denoise: built in, version ${OpenImageDenoise_VERSION}")
         set(OSGRAYTRACE_HAS_OIDN TRUE)
     endif()
+endif()
+
+if(NOT OSGRAYTRACE_OSG)
+    return()
 endif()
 
 # MPI is optional (OSGRAYTRACE_HAS_MPI), and osgraytrace alone links it. Its interface for C is enough.

@@ -73,9 +73,11 @@ endfunction()
 
 # If the libraries are installed into the folder of OSG's own, as by a distribution's package, plugins that OSG has, too,
 # must not replace them: these are in the folder osgRayTrace there (osgPlugins/OwnFolder.h prefers it).
-cmake_path(GET OSG_LIBRARY PARENT_PATH folderOfOsg)
 set(OSGRAYTRACE_APART_DIR "")
-if(folderOfOsg STREQUAL CMAKE_INSTALL_FULL_LIBDIR)
+if(OSGRAYTRACE_OSG)
+    cmake_path(GET OSG_LIBRARY PARENT_PATH folderOfOsg)
+endif()
+if(OSGRAYTRACE_OSG AND folderOfOsg STREQUAL CMAKE_INSTALL_FULL_LIBDIR)
     set(OSGRAYTRACE_APART_DIR "osgRayTrace/")
 endif()
 

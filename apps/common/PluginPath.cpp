@@ -3,18 +3,17 @@
 #include "PluginPath.h"
 
 #include "osgPlugins/OwnFolder.h"
+#include "osgRayTrace/base/Platform.h"
 
 #include <filesystem>
-#include <system_error>
 
 namespace osgRayTrace::app
 {
 
 void addPluginPath()
 {
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (error) return;
+    const std::filesystem::path program = engine::programPath();
+    if (program.empty()) return;
     // The second folder is the first again, unless the installer splits lib by architecture.
     for (const char* fromProgram : {"../lib", OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS})
     {

@@ -1,5 +1,7 @@
 // main.cpp - osgraytrace-run: starts a foreign program with its scenes ray traced. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/base/Platform.h"
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -47,7 +49,7 @@ constexpr const char* kHelp =
 std::optional<std::filesystem::path> ourLibrary()
 {
     std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path program = osgRayTrace::engine::programPath();
     constexpr const char* kFolders[] = {OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS "/osgRayTrace",
                                         OSGRAYTRACE_LIBRARIES_FROM_PROGRAMS, "../lib"};
     for (const char* folder : kFolders)

@@ -5,12 +5,11 @@
 #include "osgRayTrace/accel/HitRule.h"
 #include "osgRayTrace/accel/RayBlock.h"
 
-#if __has_include(<embree4/rtcore.h>) && !__has_include(<embree3/rtcore.h>)
+// CMake defines OSGRAYTRACE_EMBREE: the headers of both versions may be there.
+#if OSGRAYTRACE_EMBREE == 4
 #include <embree4/rtcore.h>
-#define OSGRAYTRACE_EMBREE 4
 #else
 #include <embree3/rtcore.h>
-#define OSGRAYTRACE_EMBREE 3
 #endif
 
 #include <cstddef>

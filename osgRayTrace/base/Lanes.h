@@ -3,40 +3,12 @@
 #pragma once
 
 #include "osgRayTrace/base/Assert.h"
+#include "osgRayTrace/base/Bits.h"
+#include "osgRayTrace/base/Kernel.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <cstdint>
 #include <cstring>
-
-/// OSGRAYTRACE_SIMD stands before a loop over lanes whose turns do not depend on each other.
-#if defined(__GNUC__)
-#define OSGRAYTRACE_PRAGMA(text) _Pragma(#text)
-#define OSGRAYTRACE_SIMD OSGRAYTRACE_PRAGMA(omp simd)
-/// OSGRAYTRACE_SIMD_OR stands before such a loop that also joins bits into the variable mask by |=.
-#define OSGRAYTRACE_SIMD_OR(mask) OSGRAYTRACE_PRAGMA(omp simd reduction(| : mask))
-#else
-#define OSGRAYTRACE_SIMD
-#define OSGRAYTRACE_SIMD_OR(mask)
-#endif
-
-/// OSGRAYTRACE_KERNEL stands before a function whose loops are worth a version for each vector
-/// width. The loader picks the version for the CPU at hand, so a build for distribution uses
-/// AVX-512 or AVX2 if the CPU has them.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__OPTIMIZE__) &&    \
-    !defined(OSGRAYTRACE_NO_CLONES)
-#define OSGRAYTRACE_KERNEL                                                                         \
-    __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define OSGRAYTRACE_KERNEL
-#endif
-
-/// OSGRAYTRACE_INLINE stands before a small function that must become part of the kernel that calls
-/// it, and so use the kernel's vector width.
-#if defined(__GNUC__)
-#define OSGRAYTRACE_INLINE inline __attribute__((always_inline))
-#else
-#define OSGRAYTRACE_INLINE inline
-#endif
 
 namespace osgRayTrace::engine
 {
@@ -52,14 +24,14 @@ constexpr LaneMask kAllLanes = 0xffffu;
 OSGRAYTRACE_INLINE int firstLane(LaneMask mask)
 {
     OSGRAYTRACE_ASSERT(mask != 0 && mask <= kAllLanes);
-    return __builtin_ctz(mask);
+    return lowestBit(mask);
 }
 
 /// Returns how many lanes are in a mask.
 OSGRAYTRACE_INLINE int countLanes(LaneMask mask)
 {
     OSGRAYTRACE_ASSERT(mask <= kAllLanes);
-    return __builtin_popcount(mask);
+    return countBits(mask);
 }
 
 /// The lanes of a mask in ascending order: `for (const int i : lanesIn(mask))`. LanesIn is a range
@@ -78,7 +50,7 @@ public:
     {
     public:
         OSGRAYTRACE_INLINE explicit Iterator(LaneMask left) : _left(left) {}
-        OSGRAYTRACE_INLINE int operator*() const { return __builtin_ctz(_left); }
+        OSGRAYTRACE_INLINE int operator*() const { return lowestBit(_left); }
         OSGRAYTRACE_INLINE Iterator& operator++()
         {
             _left &= _left - 1;

@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Platform.h"
+
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 namespace osgRayTrace::engine
 {
@@ -24,13 +20,7 @@ template <class T> void allocateLarge(std::vector<T>& values, std::size_t size)
 {
     std::vector<T>().swap(values);
     values.reserve(size);
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-    constexpr uintptr_t kPage = 4096;
-    const uintptr_t begin = (reinterpret_cast<uintptr_t>(values.data()) + kPage - 1) & ~(kPage - 1);
-    const uintptr_t end = reinterpret_cast<uintptr_t>(values.data() + size) & ~(kPage - 1);
-    // The call is only a hint: if the system refuses, the pages are small.
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
+    preferHugePages(values.data(), size * sizeof(T));
     values.resize(size);
 }
 
@@ -49,16 +39,11 @@ public:
         if (size == 0) return;
         const std::size_t page = size * sizeof(T) >= kHugePage ? kHugePage : 64;
         const std::size_t bytes = (size * sizeof(T) + page - 1) / page * page;
-        _values = static_cast<T*>(std::aligned_alloc(page, bytes));
+        _values = static_cast<T*>(allocateAligned(page, bytes));
         if (!_values) throw std::bad_alloc();
-#if defined(__linux__) && defined(MADV_HUGEPAGE)
-        if (page == kHugePage) madvise(_values, bytes, MADV_HUGEPAGE); // only a hint, as above
-#endif
+        if (page == kHugePage) preferHugePages(_values, bytes);
     }
-    ~UnclearedArray()
-    {
-        std::free(_values);
-    }
+    ~UnclearedArray() { freeAligned(_values); }
     UnclearedArray(UnclearedArray&& other) noexcept
         : _values(std::exchange(other._values, nullptr)), _size(std::exchange(other._size, 0))
     {
@@ -70,26 +55,11 @@ public:
         return *this;
     }
 
-    std::size_t size() const
-    {
-        return _size;
-    }
-    T* data()
-    {
-        return _values;
-    }
-    const T* data() const
-    {
-        return _values;
-    }
-    T& operator[](std::size_t i)
-    {
-        return _values[i];
-    }
-    const T& operator[](std::size_t i) const
-    {
-        return _values[i];
-    }
+    std::size_t size() const { return _size; }
+    T* data() { return _values; }
+    const T* data() const { return _values; }
+    T& operator[](std::size_t i) { return _values[i]; }
+    const T& operator[](std::size_t i) const { return _values[i]; }
 
 private:
     static constexpr std::size_t kHugePage = std::size_t(1) << 21;

@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/base/Parallel.h"
 
+#include "osgRayTrace/base/Cpu.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-
-#if defined(__SSE__)
-#include <immintrin.h>
-#endif
 
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void* address);
@@ -23,26 +21,6 @@ namespace osgRayTrace::engine
 
 namespace
 {
-
-/// Flushes denormals during its lifetime: Embree wants that, and denormals cost time and bring
-/// nothing.
-class FlushDenormals
-{
-public:
-#if defined(__SSE__)
-    FlushDenormals() : _saved(_mm_getcsr())
-    {
-        _mm_setcsr(_saved | 0x8040u);
-    }
-    ~FlushDenormals()
-    {
-        _mm_setcsr(_saved);
-    }
-
-private:
-    unsigned int _saved;
-#endif
-};
 
 /// Tells ThreadSanitizer an order that it cannot see in a TBB that is not sanitized. Everything
 /// before a loop happens before the bodies of the loop, and the bodies happen before everything

@@ -1,6 +1,8 @@
 // PhotonMap.cpp - the photons around a point: look-ups in a counting-sorted grid. Layer: photons.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonMap.h"
+
+#include "osgRayTrace/base/Kernel.h"
 #include "osgRayTrace/photons/PhotonColumns.h"
 
 #include <algorithm>
@@ -117,7 +119,7 @@ struct PhotonMap::BucketLine
 
 /// Finds the ranges of photons that can be in the disc, in ascending order, none of them twice.
 /// flatten: a call of rangesIn would be a twentieth of a look-up.
-__attribute__((flatten)) int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
+OSGRAYTRACE_FLATTEN int PhotonMap::rangesOf(const PhotonQuery& query, Range* ranges) const
 {
     if (_count == 0 || !(query.radius >= 0.0f)) return 0;
     const Vec3d centre(query.position);

@@ -1,5 +1,6 @@
 // PhotonMapBuild.cpp - sorts photons into a grid by counting. Layer: photons.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/base/Cpu.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/photons/PhotonColumns.h"
 #include "osgRayTrace/photons/PhotonMap.h"
@@ -64,10 +65,8 @@ Bounds boundsOf(const std::vector<Photon>& photons, const Workers& workers)
 
 OSGRAYTRACE_INLINE void prefetch(const void* address, std::size_t bytes)
 {
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-    __builtin_prefetch(static_cast<const char*>(address) + bytes - 1);
-#endif
+    engine::prefetch(address);
+    engine::prefetch(static_cast<const char*>(address) + bytes - 1);
 }
 
 /// A photon to be moved to its bucket.

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/LogGamma.h"
 #include "osgRayTrace/base/Math.h"
 
 #include <cmath>
@@ -15,12 +16,6 @@ namespace osgRayTrace::engine
 /// radii], written as gamma functions. Passes are independent of each other.
 inline double globalRadiusSquared(int pass, double alpha)
 {
-    // std::lgamma also writes a sign, which all threads share.
-    const auto logGamma = [](double x)
-    {
-        int sign = 1;
-        return lgamma_r(x, &sign);
-    };
     const double n = pass + 1.0;
     return std::exp(logGamma(n + alpha) - logGamma(1.0 + alpha) - logGamma(n + 1.0));
 }

@@ -27,7 +27,7 @@ std::string processor()
 
 std::string instructionSet()
 {
-#if defined(__x86_64__)
+#if defined(__GNUC__) && defined(__x86_64__)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "AVX-512";
     if (__builtin_cpu_supports("avx2")) return "AVX2";
     if (__builtin_cpu_supports("avx")) return "AVX";

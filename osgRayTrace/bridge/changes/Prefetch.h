@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/Cpu.h"
 #include "osgRayTrace/bridge/changes/WatchedGraph.h"
 
 #include <cstddef>
@@ -24,7 +25,7 @@ constexpr int kBufferBytes[] = {72, 136};
 template <std::size_t N> inline void fetch(const void* object, const int (&bytes)[N])
 {
     for (const int byte : bytes)
-        __builtin_prefetch(static_cast<const char*>(object) + byte);
+        prefetch(static_cast<const char*>(object) + byte);
 }
 
 inline void fetch(const WatchedNode& node)

@@ -39,7 +39,7 @@ template <class ValueOf>
 void interpolate(const SurfaceRecord& record, const RayHitBlock& rays, LaneMask lanes,
                  const ValueOf& value, Vec3Lanes& values)
 {
-    Corners corners;
+    Corners corners{}; // lanes that are not used are computed, too
     uint32_t known = kInvalid;
     Vec3 a(0.0f), b(0.0f), c(0.0f);
     for (const int i : lanesIn(lanes))
