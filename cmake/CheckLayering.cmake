@@ -1,5 +1,5 @@
 # Checks that each include points to its own layer or to one left of it, and these rules:
-#   base < sampling < film < scene < shading < accel < photons < integrators < session < bridge < API
+#   base < sampling < film < scene < shading < media < accel < photons < integrators < session < bridge < API
 #        < offscreen < osgPlugins < apps
 #   - inside three layers, folders have an order, too; "" stands for files of the layer itself:
 #       bridge: common < geometry < appearance/textures < appearance/lights < appearance/materials
@@ -18,8 +18,8 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
-set(LAYERS base sampling film scene shading accel photons integrators session bridge API offscreen osgPlugins apps)
-set(ENGINE base sampling film scene shading accel photons integrators session)
+set(LAYERS base sampling film scene shading media accel photons integrators session bridge API offscreen osgPlugins apps)
+set(ENGINE base sampling film scene shading media accel photons integrators session)
 # The folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
     graph changes pick convert update)

@@ -12,6 +12,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 
 #include <osg/Billboard>
 #include <osg/ClipNode>
@@ -62,6 +63,8 @@ public:
                         light->getRadiance(), light->getTwoSided());
         if (dynamic_cast<const EnvironmentLight*>(&node))
             _hasher.add(lightHash(NodeKind::Environment, node, _kept));
+        if (dynamic_cast<const MediumVolume*>(&node))
+            _hasher.add(lightHash(NodeKind::Volume, node, _kept));
         enter(node);
     }
 

@@ -11,6 +11,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 
 #include <osg/ClearNode>
 #include <osg/ClipNode>
@@ -56,7 +57,8 @@ bool hasSpecialNodes(osg::Node& node)
         void apply(osg::Node& visited) override
         {
             found = found || dynamic_cast<AreaLight*>(&visited) ||
-                    dynamic_cast<EnvironmentLight*>(&visited);
+                    dynamic_cast<EnvironmentLight*>(&visited) ||
+                    dynamic_cast<MediumVolume*>(&visited);
             if (!found) traverse(visited);
         }
         void apply(osg::LightSource&) override { found = true; }
