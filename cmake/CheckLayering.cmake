@@ -1,5 +1,5 @@
 # Checks that each include points to its own layer or to one left of it, and these rules:
-#   base < sampling < film < scene < shading < accel < photons < integrators < session < servers
+#   base < sampling < film < scene < shading < media < accel < photons < integrators < session < servers
 #        < bridge < API < offscreen < osgPlugins < apps
 #   - inside three layers, folders have an order, too; "" stands for files of the layer itself:
 #       bridge: common < geometry < appearance/textures < appearance/lights < appearance/materials
@@ -19,8 +19,9 @@
 # SPDX-License-Identifier: MIT
 cmake_minimum_required(VERSION 3.24)
 
-set(LAYERS base sampling film scene shading accel photons integrators session servers bridge API offscreen osgPlugins apps)
-set(ENGINE base sampling film scene shading accel photons integrators session servers)
+set(LAYERS base sampling film scene shading media accel photons integrators session servers bridge API offscreen osgPlugins
+    apps)
+set(ENGINE base sampling film scene shading media accel photons integrators session servers)
 # The folders of a layer, each of which includes those left of it. "root" is the layer's own folder.
 set(FOLDERS_bridge common geometry appearance/textures appearance/lights appearance/materials
     graph changes pick convert update)

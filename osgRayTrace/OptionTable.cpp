@@ -172,6 +172,8 @@ const std::vector<OptionRow>& optionTable()
                   "No step where light ends on smooth-shaded facets"),
         switchRow("cull-all-rays", &S::getCullAllRays, &S::setCullAllRays,
                   "All rays pass faces that they meet on the culled side; else camera rays alone"),
+        choiceRow("fog", kFogWords, &S::getFog, &S::setFog,
+                  "What osg::Fog is: as OpenGL draws it, or a medium that the lights light"),
         numberRow("point-radius", kPointRadiusRange, &S::getPointRadius, &S::setPointRadius,
                   "Radius of points and lines, traced as spheres and capsules [length]; 0: OSG "
                   "draws them"),

@@ -50,6 +50,14 @@ int compareTextures(const osg::Texture2D* left, const osg::Texture2D* right)
     return left->compare(*right);
 }
 
+/// Compares media in the same manner.
+int compareInteriors(const Medium* left, const Medium* right)
+{
+    if (left == right) return 0;
+    if (!left) return -1;
+    return right ? left->compare(*right) : 1;
+}
+
 int comparePlaces(const PhysicalMaterial::TexturePlace& left,
                   const PhysicalMaterial::TexturePlace& right)
 {
@@ -87,6 +95,8 @@ PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::Cop
       _thinWalled(other._thinWalled),
       _attenuationColor(other._attenuationColor),
       _attenuationDistance(other._attenuationDistance),
+      _interior(
+          static_cast<Medium*>(copyop(static_cast<const osg::Object*>(other._interior.get())))),
       _specular(other._specular),
       _specularColor(other._specularColor),
       _clearcoat(other._clearcoat),
@@ -128,6 +138,8 @@ int PhysicalMaterial::compare(const osg::StateAttribute& other) const
     };
     if (values(*this) < values(rhs)) return -1;
     if (values(rhs) < values(*this)) return 1;
+    const int interiors = compareInteriors(_interior.get(), rhs._interior.get());
+    if (interiors != 0) return interiors;
     for (int use = 0; use < NUMBER_OF_TEXTURES; ++use)
     {
         const int order = compareTextures(_textures[use].get(), rhs._textures[use].get());

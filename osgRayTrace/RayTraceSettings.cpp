@@ -157,6 +157,11 @@ void RayTraceSettings::setCullAllRays(bool value)
     change(_values.cullAllRays, value, _modifiedCount);
 }
 
+void RayTraceSettings::setFog(Fog value)
+{
+    changeChoice("fog", kFogWords, _values.fog, value, _modifiedCount);
+}
+
 void RayTraceSettings::setPointRadius(float value)
 {
     changeNumber("point-radius", kPointRadiusRange, _values.pointRadius, value, _modifiedCount);

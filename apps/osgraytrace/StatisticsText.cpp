@@ -74,6 +74,10 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                            {"hitPointBytes", statistics.hitPointBytes},
                            {"radius", statistics.photonRadius},
                            {"note", statistics.photonNote}};
+    if (statistics.collisions || !statistics.mediumNote.empty())
+        json["media"] = {{"collisions", statistics.collisions},
+                         {"cutWalks", statistics.cutWalks},
+                         {"note", statistics.mediumNote}};
     json["relativeError"] = statistics.relativeError;
     json["medianError"] = statistics.medianError;
     json["worstErrorShare"] = statistics.worstErrorShare;

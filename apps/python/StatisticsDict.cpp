@@ -102,6 +102,9 @@ py::dict statisticsDict(const Statistics& statistics)
     OSGRAYTRACE_MEMBER(reprojectSeconds);
     OSGRAYTRACE_MEMBER(photonRadius);
     OSGRAYTRACE_MEMBER(photonNote);
+    OSGRAYTRACE_MEMBER(collisions);
+    OSGRAYTRACE_MEMBER(cutWalks);
+    OSGRAYTRACE_MEMBER(mediumNote);
     OSGRAYTRACE_MEMBER(denoiseMilliseconds);
     OSGRAYTRACE_MEMBER(denoiser);
     OSGRAYTRACE_MEMBER(denoiseNote);

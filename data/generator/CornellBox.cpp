@@ -5,6 +5,7 @@
 #include "Surfaces.h"
 
 #include <osgRayTrace/AreaLight>
+#include <osgRayTrace/MediumVolume>
 
 namespace osgRayTrace::data
 {
@@ -89,6 +90,17 @@ osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant)
         light[0], light[1] - light[0], light[3] - light[0], cornell::kRadiance.as<Vec3>());
     areaLight->setName("light");
     scene->addChild(areaLight.get());
+    if (variant == CornellVariant::Fog)
+    {
+        const osg::ref_ptr<Medium> fog = new Medium;
+        const float density = 0.69314718f / 560.0f; // [1/mm]
+        fog->setScattering(Vec3(1.0f, 1.0f, 1.0f) * (0.95f * density));
+        fog->setAbsorption(Vec3(1.0f, 1.0f, 1.0f) * (0.05f * density));
+        fog->setAnisotropy(0.3f);
+        const osg::ref_ptr<MediumVolume> volume = new MediumVolume(fog.get());
+        volume->setName("fog");
+        scene->addChild(volume.get());
+    }
     return scene;
 }
 

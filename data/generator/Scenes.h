@@ -15,6 +15,7 @@ enum class CornellVariant
     MirrorFloor, ///< floor and tall block are mirrors [McCarthy17, fig. 4]
     TallMirror,  ///< the tall block is a mirror
     GlassSphere, ///< a glass sphere in place of both blocks
+    Fog,         ///< as published, in fog through which half of the light crosses the box
 };
 
 osg::ref_ptr<osg::Group> cornellBox(CornellVariant variant);
@@ -29,6 +30,15 @@ osg::ref_ptr<osg::Group> rings(double roughness = 0.0);
 /// Returns a glass sphere and a glass of water in a box, under a small lamp. Lengths are
 /// centimetres, z is up.
 osg::ref_ptr<osg::Group> glasses();
+
+/// Returns glasses of thin milk and of a golden drink, and a piece of wax, under a large lamp. The
+/// drinks reach into the walls of their glasses, whose priority is higher. Lengths are centimetres,
+/// z is up.
+osg::ref_ptr<osg::Group> drinks();
+
+/// Returns a dark room full of haze, into which a low sun shines through a window of coloured
+/// panes. Lengths are metres, z is up.
+osg::ref_ptr<osg::Group> hazeWindow();
 
 /// Returns an upright prism of glass in the beam of a spot light. Lengths are centimetres, z is up.
 osg::ref_ptr<osg::Group> prism();

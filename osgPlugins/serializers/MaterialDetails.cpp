@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+using osgRayTrace::Medium;
 using osgRayTrace::PhysicalMaterial;
 
 namespace
@@ -71,6 +72,11 @@ std::string wordOf(float value)
     return wordOf({value});
 }
 
+std::string wordOf(int value)
+{
+    return wordOf({static_cast<float>(value)});
+}
+
 std::string wordOf(bool value)
 {
     return wordOf({value ? 1.0f : 0.0f});
@@ -99,6 +105,11 @@ std::vector<float> valuesOf(const std::string& word, std::size_t count)
 void read(const std::string& word, float& value)
 {
     value = valuesOf(word, 1)[0];
+}
+
+void read(const std::string& word, int& value)
+{
+    value = static_cast<int>(valuesOf(word, 1)[0]);
 }
 
 void read(const std::string& word, bool& value)
@@ -132,6 +143,26 @@ template <auto kGet, auto kSet> constexpr Parameter parameter(const char* name)
             }};
 }
 
+/// Returns the parameter of a getter and a setter of the interior, which is made if it is set.
+template <auto kGet, auto kSet> constexpr Parameter interior(const char* name)
+{
+    return {name,
+            [](const PhysicalMaterial& material)
+            {
+                const osg::ref_ptr<const Medium> plain = new Medium;
+                const Medium* medium =
+                    material.getInterior() ? material.getInterior() : plain.get();
+                return wordOf((medium->*kGet)());
+            },
+            [](PhysicalMaterial& material, const std::string& word)
+            {
+                std::decay_t<decltype((std::declval<const Medium&>().*kGet)())> value;
+                read(word, value);
+                if (!material.getInterior()) material.setInterior(new Medium);
+                (material.getInterior()->*kSet)(value);
+            }};
+}
+
 using M = PhysicalMaterial;
 constexpr Parameter kParameters[] = {
     parameter<&M::getAlpha, &M::setAlpha>("alpha"),
@@ -140,6 +171,11 @@ constexpr Parameter kParameters[] = {
     parameter<&M::getThinWalled, &M::setThinWalled>("thinWalled"),
     parameter<&M::getAttenuationColor, &M::setAttenuationColor>("attenuationColor"),
     parameter<&M::getAttenuationDistance, &M::setAttenuationDistance>("attenuationDistance"),
+    interior<&Medium::getAbsorption, &Medium::setAbsorption>("interiorAbsorption"),
+    interior<&Medium::getScattering, &Medium::setScattering>("interiorScattering"),
+    interior<&Medium::getEmission, &Medium::setEmission>("interiorEmission"),
+    interior<&Medium::getAnisotropy, &Medium::setAnisotropy>("interiorAnisotropy"),
+    interior<&Medium::getPriority, &Medium::setPriority>("interiorPriority"),
     parameter<&M::getSpecular, &M::setSpecular>("specular"),
     parameter<&M::getSpecularColor, &M::setSpecularColor>("specularColor"),
     parameter<&M::getClearcoat, &M::setClearcoat>("clearcoat"),

@@ -68,6 +68,7 @@ bool HitFilter::stops(const Candidate& c, HitRule rule) const
     if (rule.solid) return true;
     const SurfaceRecord& surface = _surfaces[c.instance];
     const MaterialRecord& record = _materials[surface.material];
+    if (record.interface && rule.passesInterfaces) return false;
     if (!record.partial) return true;
     const Material& material = *record.material;
     if (passesFace(material, isFrontFace(material, c.front), rule)) return false;
@@ -88,6 +89,7 @@ bool needsFilter(const MaterialRecord& record, bool masks)
 {
     const Material& material = *record.material;
     const bool transparent = material.blended || material.alphaTest != AlphaTest::Always;
+    if (record.interface) return true;
     return record.partial && (transparent || !masks || !isHiddenFromCamera(material));
 }
 

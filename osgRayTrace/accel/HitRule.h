@@ -13,11 +13,13 @@ struct HitRule
     bool fromLight =
         false;          ///< the ray goes as light does: it meets faces of which one side is culled
     bool solid = false; ///< every surface is hit, even if it is transparent or culled
+    bool passesInterfaces = false; ///< boundaries of media are not there: shadow rays
 
     /// Returns true if the ray passes what is hidden from the camera: see isHiddenFromCamera.
     constexpr bool passesHidden() const { return culls && !solid; }
 };
-constexpr HitRule kCameraRays{true, false, false, false};
-constexpr HitRule kPhotonRays{false, false, true, false};
+constexpr HitRule kCameraRays{true, false, false, false, false};
+constexpr HitRule kPhotonRays{false, false, true, false, false};
+constexpr HitRule kShadowRays{false, false, false, false, true};
 
 } // namespace osgRayTrace::engine

@@ -225,7 +225,7 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
 
     // The coherent flag is never set here: the flag makes occlusion packets slower, and with
     // instances Embree 3.13.5 may not return at all.
-    QueryArguments query(false, _filter);
+    QueryArguments query(false, _filter, kShadowRays);
     // Four shadow rays go different ways as soon as two do: on CPUs of that width shadow rays are
     // traced one by one, like other incoherent rays.
     if (_nativeWidth == 16 && !areFew(active))
@@ -271,7 +271,7 @@ bool Intersector::occluded(Vec3 origin, Vec3 direction, float tNear, float tFar)
 {
     if (!traceable(_reach, plainOf(origin), plainOf(direction), tNear, tFar)) return true;
     RTCRay single = singleRay(origin, direction, tNear, tFar);
-    QueryArguments query(false, _filter);
+    QueryArguments query(false, _filter, kShadowRays);
     query.occluded(static_cast<RTCScene>(_scene), &single);
     return single.tfar < 0.0f;
 }

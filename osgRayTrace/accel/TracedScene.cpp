@@ -61,6 +61,7 @@ struct TracedScene::Implementation
     TangentTable tangents;
     std::shared_ptr<const MaterialPart> materials;
     std::unique_ptr<LightTable> lights;
+    MediumTable media;
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
@@ -276,7 +277,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old, const Wo
                     scene->unit == old->scene->unit &&
                     sameParts(scene->materials, old->scene->materials, stamp);
     const bool sameTraits =
-        sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp);
+        sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp) &&
+        scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse;
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr,
                                           &materials->table, &workers);
@@ -338,6 +340,12 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.intersector =
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
+    if (built.traits.media)
+    {
+        const Box box = boundsOf(top);
+        built.media = MediumTable(*built.scene, box.low, box.high);
+    }
+
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;
     statistics.refitMeshes = counts.refit;
@@ -372,6 +380,10 @@ const MaterialTable& TracedScene::materials() const
 const LightTable& TracedScene::lights() const
 {
     return *_implementation->lights;
+}
+const MediumTable& TracedScene::media() const
+{
+    return _implementation->media;
 }
 const VertexTangents* TracedScene::vertexTangents(uint32_t instance, uint32_t uvSet) const
 {

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/media/MediumTable.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/scene/SceneTraits.h"
 #include "osgRayTrace/shading/LightTable.h"
@@ -51,6 +52,8 @@ public:
     const SurfaceTable& surfaces() const;
     const MaterialTable& materials() const;
     const LightTable& lights() const;
+    /// Returns the media that rays travel through; empty without SceneTraits::media.
+    const MediumTable& media() const;
     /// Returns the tangents that were made for the mesh of an instance by the texture coordinates
     /// of a set; null if its material needs none, or if it has tangents of its own, no
     /// normals or no coordinates.

@@ -19,6 +19,14 @@ enum class FogMode : uint8_t
     ExponentialSquared,
 };
 
+/// Tells what the fog of surfaces is.
+enum class FogUse : uint8_t
+{
+    Depth,  ///< what OpenGL makes of it
+    Medium, ///< a medium that fills the scene: see FogMedium.h
+    Off,
+};
+
 /// Holds the fog of a surface [OpenGL21, sect. 3.10]. The colour is linear if the scene is, and
 /// display-referred otherwise.
 struct Fog

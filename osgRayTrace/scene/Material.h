@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/scene/Fog.h"
+#include "osgRayTrace/scene/Medium.h"
 #include "osgRayTrace/scene/Mesh.h"
 #include "osgRayTrace/scene/TextureMapping.h"
 
@@ -121,11 +122,10 @@ struct TexturePlace
 /// Holds the parameters of a physical material that most surfaces do not have.
 struct MaterialDetail
 {
-    bool vertexColors = false;   ///< base colour and alpha are multiplied with Mesh::colors
-    bool thinWalled = false;     ///< light passes without being bent: KHR_materials_transmission
-    Vec3 attenuationColor{1.0f}; ///< KHR_materials_volume
-    float attenuationDistance = 0.0f; ///< [scene units, not engine units]; 0: nothing is absorbed
-    float specular = 1.0f;            ///< KHR_materials_specular
+    bool vertexColors = false; ///< base colour and alpha are multiplied with Mesh::colors
+    bool thinWalled = false;   ///< light passes without being bent: KHR_materials_transmission
+    Medium interior;           ///< fills the body that the surface encloses
+    float specular = 1.0f;     ///< KHR_materials_specular
     Vec3 specularColor{1.0f};
     float clearcoat = 0.0f; ///< KHR_materials_clearcoat
     float clearcoatRoughness = 0.0f;
@@ -154,10 +154,8 @@ struct MaterialDetail
         return none;
     }
 
-    bool absorbs() const
-    {
-        return !thinWalled && attenuationDistance > 0.0f && attenuationColor != Vec3(1.0f);
-    }
+    bool absorbs() const { return !thinWalled && interior.absorbs(); }
+    bool fillsBody() const { return !thinWalled && !interior.isClear(); }
 };
 
 /// All colours are linear if the scene is, and display-referred otherwise (Scene::displayReferred).
@@ -303,6 +301,19 @@ inline bool isInvisible(const Material& m)
     return m.model == MaterialModel::Physical && m.transmission >= 1.0f && m.metallic <= 0.0f &&
            usableIor(m.ior) == 1.0f && m.baseColor == Vec3(1.0f) && m.emission == Vec3(0.0f) &&
            m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid && !m.detail;
+}
+
+/// Returns true if the surface is nothing but the boundary of a medium: light passes it unbent, and
+/// shadow rays are not blocked.
+inline bool isInterface(const Material& m)
+{
+    if (m.model != MaterialModel::Physical || !m.detail || !m.detail->fillsBody()) return false;
+    const MaterialDetail& d = *m.detail;
+    return m.transmission >= 1.0f && m.metallic <= 0.0f && usableIor(m.ior) == 1.0f &&
+           m.baseColor == Vec3(1.0f) && m.emission == Vec3(0.0f) && !m.blended &&
+           m.alphaTest == AlphaTest::Always && m.baseColorTexture == kInvalid &&
+           m.transmissionTexture == kInvalid && !d.vertexColors && d.clearcoat <= 0.0f &&
+           d.sheenColor == Vec3(0.0f) && d.diffuseTransmission <= 0.0f && d.iridescence <= 0.0f;
 }
 
 /// Returns true if camera rays pass both sides of the surface, which other rays meet.

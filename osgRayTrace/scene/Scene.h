@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/scene/Light.h"
 #include "osgRayTrace/scene/Material.h"
+#include "osgRayTrace/scene/Medium.h"
 #include "osgRayTrace/scene/Mesh.h"
 
 #include <memory>
@@ -25,6 +26,8 @@ struct Scene
     std::vector<Material> materials; ///< never empty once finished: 0 is the fallback
     std::vector<std::shared_ptr<const Texture>> textures;
     std::vector<Light> lights;
+    std::shared_ptr<const Atmosphere> atmosphere; ///< null: see atmosphereOf
+    FogUse fogUse = FogUse::Depth;
 
     Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
     Vec4 background{0.0f}; ///< RGBA that rays see which leave the scene; not a light

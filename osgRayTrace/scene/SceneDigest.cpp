@@ -17,7 +17,8 @@ namespace
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
 static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
-static_assert(sizeof(MaterialDetail) == 652 && sizeof(Material) == 616 && sizeof(Fog) == 28);
+static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
+              sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
 #endif
@@ -95,13 +96,19 @@ void addFace(const FaceColors& face, Hasher& hasher)
                face.alpha);
 }
 
+void addMedium(const Medium& m, Hasher& hasher)
+{
+    hasher.add(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.priority);
+}
+
 void addDetail(const MaterialDetail& d, Hasher& hasher)
 {
-    hasher.add(d.vertexColors, d.thinWalled, d.attenuationColor, d.attenuationDistance, d.specular,
-               d.specularColor, d.clearcoat, d.clearcoatRoughness, d.clearcoatNormalScale,
-               d.sheenColor, d.sheenRoughness, d.anisotropy, d.anisotropyRotation,
-               d.diffuseTransmission, d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor,
-               d.iridescenceThickness, d.normalScale, d.textures);
+    addMedium(d.interior, hasher);
+    hasher.add(d.vertexColors, d.thinWalled, d.specular, d.specularColor, d.clearcoat,
+               d.clearcoatRoughness, d.clearcoatNormalScale, d.sheenColor, d.sheenRoughness,
+               d.anisotropy, d.anisotropyRotation, d.diffuseTransmission,
+               d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor, d.iridescenceThickness,
+               d.normalScale, d.textures);
     for (const TexturePlace& place : d.places)
         hasher.add(place.set, place.u, place.v, place.offset);
 }
@@ -167,6 +174,12 @@ uint64_t sceneDigest(const Scene& scene)
         addTexture(*texture, hasher);
     for (const Light& light : scene.lights)
         addLight(light, hasher);
+    hasher.add(scene.fogUse, scene.atmosphere != nullptr);
+    if (scene.atmosphere)
+    {
+        addMedium(scene.atmosphere->medium, hasher);
+        hasher.add(scene.atmosphere->centre, scene.atmosphere->radius);
+    }
     return hasher.value();
 }
 

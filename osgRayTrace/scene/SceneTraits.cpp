@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/scene/SceneTraits.h"
 
+#include "osgRayTrace/scene/FogMedium.h"
+
 namespace osgRayTrace::engine
 {
 
@@ -13,6 +15,17 @@ constexpr float kMirrorRoughness = 0.0316f;
 
 /// Below this perceptual roughness metal is glossy: alpha = 0.5^2 is kRoughAlpha.
 constexpr float kRoughRoughness = 0.5f;
+
+/// Bodies that only absorb need no more than Beer's law between the two sides of their surface,
+/// unless light passes that surface unbent and so shines into them.
+void addMedium(const Material& material, const MaterialDetail& detail, SceneTraits& traits)
+{
+    const bool opens = material.transmission > 0.0f || detail.diffuseTransmission > 0.0f;
+    if (!opens || detail.thinWalled) return;
+    traits.scattering |= detail.interior.scatters();
+    traits.media |= detail.interior.scatters() || detail.interior.emits() ||
+                    detail.interior.priority != 0 || isInterface(material);
+}
 
 void addMaterial(const Material& material, SceneTraits& traits)
 {
@@ -36,6 +49,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.normalMaps |= hasNormalMap(material) || hasCoatNormals(material);
         traits.panes |= detail->thinWalled && material.transmission > 0.0f;
         traits.attenuation |= detail->absorbs();
+        addMedium(material, *detail, traits);
         traits.specular |=
             detail->clearcoat > 0.0f && detail->clearcoatRoughness < kMirrorRoughness;
     }
@@ -79,6 +93,13 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     {
         addMaterial(material, traits);
         traits.mipmaps |= isMipmapped(material, scene) && !isInvisible(material);
+    }
+    traits.fog &= scene.fogUse == FogUse::Depth;
+    const std::optional<Atmosphere> around = atmosphereOf(scene);
+    if (around && !around->medium.isClear())
+    {
+        traits.media = true;
+        traits.scattering |= around->medium.scatters();
     }
     for (const Light& light : scene.lights)
     {

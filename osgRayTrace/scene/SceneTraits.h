@@ -24,6 +24,8 @@ struct SceneTraits
     bool normalMaps = false;  ///< some texture decides on the normals of a surface or its coat
     bool panes = false;       ///< some surface lets light pass straight: see MaterialTable::pane
     bool attenuation = false; ///< light is absorbed within some body
+    bool media = false;       ///< rays need to know what they travel through: see MediumTable
+    bool scattering = false;  ///< some medium scatters light
     bool deltaLights = false; ///< directional or point lights
     bool areaLights = false;  ///< parallelogram or mesh lights
     bool environment = false; ///< light from all around

@@ -21,6 +21,15 @@ bool fits(std::size_t values, std::size_t positions)
     return values == 0 || values == positions;
 }
 
+/// Returns whether a medium is one that the library makes: finite, and not negative.
+bool isUsable(const Medium& m)
+{
+    const auto isSum = [](const Vec3& v)
+    { return isFinitePosition(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; };
+    return isSum(m.sigmaA) && isSum(m.sigmaS) && isSum(m.emission) && m.anisotropy > -1.0f &&
+           m.anisotropy < 1.0f;
+}
+
 /// Returns whether the texels are as many as the sizes say.
 bool isWhole(const Texture& t)
 {
@@ -109,6 +118,13 @@ const char* sceneFault(const Scene& scene)
         }
         if (!known) return "a material names a texture that the scene lacks";
     }
+    for (const Material& m : scene.materials)
+        if (m.detail && !isUsable(m.detail->interior))
+            return "a material has a medium out of range";
+    if (scene.atmosphere &&
+        !(isUsable(scene.atmosphere->medium) && isFinitePosition(scene.atmosphere->centre) &&
+          std::isfinite(scene.atmosphere->radius)))
+        return "the medium around the scene is out of range";
     for (const Light& light : scene.lights)
     {
         const bool needsInstance = light.kind == LightKind::Mesh;

@@ -5,14 +5,18 @@
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/servers/Wire.h"
 
+#include <memory>
+#include <type_traits>
+
 namespace osgRayTrace::engine
 {
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too. Names are for messages of the process
 // that has the scene graph, and stay there. A test sends an edit of each member.
-static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 192);
-static_assert(sizeof(MaterialDetail) == 652 && sizeof(Material) == 616);
+static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 216);
+static_assert(sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
+static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
 static_assert(sizeof(Mesh) == 360);
@@ -50,6 +54,10 @@ template <> struct LastEnumerator<FogMode>
 {
     static constexpr FogMode value = FogMode::ExponentialSquared;
 };
+template <> struct LastEnumerator<FogUse>
+{
+    static constexpr FogUse value = FogUse::Off;
+};
 template <> struct LastEnumerator<LightKind>
 {
     static constexpr LightKind value = LightKind::Environment;
@@ -78,13 +86,18 @@ template <class Archive> void fieldsOf(Archive& a, Fog& f)
     a(f.mode, f.radial, f.color, f.density, f.start, f.end);
 }
 
+template <class Archive> void fieldsOf(Archive& a, Medium& m)
+{
+    a(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.priority);
+}
+
 template <class Archive> void fieldsOf(Archive& a, MaterialDetail& d)
 {
-    a(d.vertexColors, d.thinWalled, d.attenuationColor, d.attenuationDistance, d.specular,
-      d.specularColor, d.clearcoat, d.clearcoatRoughness, d.clearcoatNormalScale, d.sheenColor,
-      d.sheenRoughness, d.anisotropy, d.anisotropyRotation, d.diffuseTransmission,
-      d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor, d.iridescenceThickness,
-      d.normalScale, d.textures);
+    fieldsOf(a, d.interior);
+    a(d.vertexColors, d.thinWalled, d.specular, d.specularColor, d.clearcoat, d.clearcoatRoughness,
+      d.clearcoatNormalScale, d.sheenColor, d.sheenRoughness, d.anisotropy, d.anisotropyRotation,
+      d.diffuseTransmission, d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor,
+      d.iridescenceThickness, d.normalScale, d.textures);
     for (TexturePlace& place : d.places)
         a(place.set, place.u, place.v, place.offset);
 }
@@ -135,7 +148,17 @@ template <class Archive> void fieldsOf(Archive& a, Light& l)
 /// The members of a scene but its parts.
 template <class Archive> void fieldsOf(Archive& a, Scene& s)
 {
-    a(s.origin, s.unit, s.ambient, s.background, s.displayReferred, s.changed);
+    a(s.origin, s.unit, s.ambient, s.background, s.displayReferred, s.fogUse, s.changed);
+    bool hasAtmosphere = s.atmosphere != nullptr;
+    a(hasAtmosphere);
+    Atmosphere around = s.atmosphere ? *s.atmosphere : Atmosphere();
+    if (hasAtmosphere)
+    {
+        fieldsOf(a, around.medium);
+        a(around.centre, around.radius);
+    }
+    if constexpr (std::is_same_v<Archive, WireReader>)
+        s.atmosphere = hasAtmosphere ? std::make_shared<const Atmosphere>(around) : nullptr;
 }
 
 } // namespace osgRayTrace::engine

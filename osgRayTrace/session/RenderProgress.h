@@ -57,6 +57,14 @@ struct StopRule
 };
 
 /// The reasons why photons have less effect than a user may expect.
+/// What an image with media leaves out.
+enum class MediumNote : uint8_t
+{
+    None,
+    PathsInstead, ///< photons were asked for, and do without media
+    SingleOnly,   ///< Whitted's integrator has single scattering alone
+};
+
 enum class PhotonNote : uint8_t
 {
     None,
@@ -86,6 +94,9 @@ struct RenderProgress
     /// for it.
     ErrorEstimate error;
     RayCounts rays;
+    MediumNote mediumNote = MediumNote::None;
+    uint64_t collisions = 0;     ///< with media
+    uint64_t cutWalks = 0;       ///< paths that ended within a medium: see kMostCollisions
     uint64_t droppedSamples = 0; ///< samples left out: not finite, or above 1e30
     bool restarted = false;      ///< whether this call began a new image
     int newTiles = 0;            ///< tiles of this call, summed over its passes

@@ -279,6 +279,8 @@ void SessionState::addTileCounts()
         progress.rays.shadow += counts.shadowRays;
         progress.rays.secondary += counts.secondaryRays;
         progress.droppedSamples += counts.droppedSamples;
+        progress.collisions += counts.collisions;
+        progress.cutWalks += counts.cutWalks;
         counts = TileCounts();
     }
 }

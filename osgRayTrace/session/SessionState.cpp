@@ -95,6 +95,15 @@ Vec3 eyeOf(const View& view, const Scene& scene)
     return Vec3((eye - scene.origin) / scene.unit);
 }
 
+/// Returns what the chosen integrator makes of the scene's media.
+MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, const SceneTraits& traits)
+{
+    if (!traits.media) return MediumNote::None;
+    if (photonUse(wanted) != PhotonUse::None) return MediumNote::PathsInstead;
+    const bool single = chosen == IntegratorKind::Whitted && traits.scattering;
+    return single ? MediumNote::SingleOnly : MediumNote::None;
+}
+
 } // namespace
 
 /// Decides whether the image restarts or continues; nothing else does. Returns true if there is
@@ -150,6 +159,7 @@ bool SessionState::begin()
     progress.restarted = true;
     photonsCounted = 0;
     progress.integrator = integratorOf(options, scene->traits());
+    progress.mediumNote = mediumNote(options.integrator, progress.integrator, scene->traits());
     photons.setOptional(!options.moving && photonsAreOptional(options.integrator, scene->traits()));
     hasSamples = false;
     if (options.centredFirstPass && progress.integrator != IntegratorKind::Debug)

@@ -39,6 +39,7 @@ struct MaterialRecord
     bool mipmapped = false; ///< true: looks textures with mips up: see setTextureWidths
     bool normalMap = false; ///< true: a texture decides on the shading normals
     bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
+    bool interface = false; ///< true: nothing but the boundary of a medium: see isInterface
     bool absorbs = false;   ///< true: the body below the surface absorbs light
     uint8_t uvSets = 0;     ///< bit n: a texture reads set n, from kFirstMoreUvs on
     Vec3 absorption{0.0f};  ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]

@@ -31,11 +31,9 @@ void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
         (m.roughness * m.roughness < kSmoothAlpha || m.metallicRoughnessTexture != kInvalid);
     record.absorbs =
         detail.absorbs() && (m.transmission > 0.0f || detail.diffuseTransmission > 0.0f);
-    constexpr float kLeastColor = 1e-6f;
+    record.interface = isInterface(m);
     if (record.absorbs)
-        record.absorption =
-            -glm::log(glm::max(detail.attenuationColor, kLeastColor)) *
-            static_cast<float>(std::min(_scene->unit / double(detail.attenuationDistance), 1e30));
+        record.absorption = detail.interior.sigmaA * static_cast<float>(_scene->unit);
 }
 
 /// Makes a mix of a dielectric and a metal by metallic [glTF20, appendix B.2].

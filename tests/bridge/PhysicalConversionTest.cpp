@@ -41,8 +41,8 @@ TEST_CASE("physical material: details are there only where some parameter needs 
     physical->setSheenColor(osg::Vec3(0.5f, 0.25f, 0.0f));
     const Material full = materialOf(triangleGeometry(), physical);
     REQUIRE(full.detail);
-    CHECK(full.detail->attenuationColor == Vec3(0.1f, 0.2f, 0.3f));
-    CHECK(full.detail->attenuationDistance == 2.0f);
+    for (int c = 0; c < 3; ++c)
+        CHECK(full.detail->interior.sigmaA[c] == Approx(-std::log(0.1 * (c + 1)) / 2.0));
     CHECK(full.detail->specular == 0.25f);
     CHECK(full.detail->specularColor == Vec3(2.0f, 1.0f, 0.5f));
     CHECK(full.detail->clearcoat == 0.75f);

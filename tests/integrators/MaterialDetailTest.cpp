@@ -9,8 +9,7 @@ using namespace osgRayTrace::engine::test;
 TEST_CASE("attenuation: light that crosses a body falls by Beer's law", "[integrators]")
 {
     MaterialDetail detail;
-    detail.attenuationColor = Vec3(0.5f, 0.25f, 1.0f);
-    detail.attenuationDistance = 4.0f;
+    detail.interior.sigmaA = absorptionOf(Vec3(0.5f, 0.25f, 1.0f), 4.0f);
     for (const double unit : {1.0, 2.0})
         for (const IntegratorKind kind : kKinds)
         {
@@ -31,8 +30,7 @@ TEST_CASE("attenuation: light that crosses a body falls by Beer's law", "[integr
 TEST_CASE("attenuation: photons lose what paths lose", "[integrators][statistics][long]")
 {
     MaterialDetail detail;
-    detail.attenuationColor = Vec3(0.3f);
-    detail.attenuationDistance = 0.5f;
+    detail.interior.sigmaA = absorptionOf(Vec3(0.3f), 0.5f);
     const auto scene = [&](bool absorbs)
     {
         SceneBuilder builder;

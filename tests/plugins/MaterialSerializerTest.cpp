@@ -40,6 +40,12 @@ TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugin
     material->setThinWalled(true);
     material->setAttenuationColor(osg::Vec3(0.1f, 0.2f, 0.3f));
     material->setAttenuationDistance(1e-20f);
+    material->setInterior(new osgRayTrace::Medium);
+    material->getInterior()->setAbsorption(osg::Vec3(0.1f, 1e-6f, 0.0f));
+    material->getInterior()->setScattering(osg::Vec3(7.0f, 0.0f, 1e3f));
+    material->getInterior()->setEmission(osg::Vec3(0.0f, 0.3f, 0.0f));
+    material->getInterior()->setAnisotropy(0.9f);
+    material->getInterior()->setPriority(-2);
     material->setSpecular(0.7f);
     material->setSpecularColor(osg::Vec3(1e6f, 0.5f, 0.0f));
     material->setClearcoat(0.9f);

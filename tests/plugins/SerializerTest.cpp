@@ -6,6 +6,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/PhysicalMaterial>
 #include <osgRayTrace/RayTracedScene>
 
@@ -254,6 +255,30 @@ TEST_CASE("serializers: EnvironmentLight keeps its images and parameters", "[plu
         CHECK(plain->getImage() == nullptr);
         CHECK(plain->getCubeMap() == nullptr);
         CHECK(plain->getVisible());
+    }
+}
+
+TEST_CASE("serializers: MediumVolume keeps its medium and its radius", "[plugins]")
+{
+    const osg::ref_ptr<osgRayTrace::Medium> medium = new osgRayTrace::Medium;
+    medium->setAbsorption(osg::Vec3(0.5f, 0.25f, 0.0f));
+    medium->setScattering(osg::Vec3(2.0f, 3.0f, 4.0f));
+    medium->setEmission(osg::Vec3(0.0f, 0.0f, 0.125f));
+    medium->setAnisotropy(-0.75f);
+    medium->setPriority(-3);
+    const osg::ref_ptr<osgRayTrace::MediumVolume> volume = new osgRayTrace::MediumVolume(medium);
+    volume->setRadius(12.5f);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        const auto copy = roundTrip(*volume, format);
+        REQUIRE(copy->getMedium());
+        CHECK(copy->getMedium()->compare(*medium) == 0);
+        CHECK(copy->getRadius() == 12.5f);
+        const osg::ref_ptr<osgRayTrace::MediumVolume> empty = new osgRayTrace::MediumVolume;
+        const auto plain = roundTrip(*empty, format);
+        CHECK(plain->getMedium() == nullptr);
+        CHECK(plain->getRadius() == 0.0f);
     }
 }
 

@@ -81,6 +81,16 @@ Edit ofLight(const std::function<void(Light&)>& edit)
     return [edit](Scene& scene) { edit(scene.lights[0]); };
 }
 
+Edit ofAtmosphere(const std::function<void(Atmosphere&)>& edit)
+{
+    return [edit](Scene& scene)
+    {
+        Atmosphere atmosphere;
+        edit(atmosphere);
+        scene.atmosphere = std::make_shared<const Atmosphere>(atmosphere);
+    };
+}
+
 } // namespace
 
 std::vector<Edit> edits()
@@ -91,6 +101,11 @@ std::vector<Edit> edits()
         [](Scene& s) { s.ambient.y = 0.5f; },
         [](Scene& s) { s.background.w = 1.0f; },
         [](Scene& s) { s.displayReferred = false; },
+        [](Scene& s) { s.fogUse = FogUse::Off; },
+        ofAtmosphere([](Atmosphere&) {}),
+        ofAtmosphere([](Atmosphere& a) { a.medium.sigmaS.y = 0.7f; }),
+        ofAtmosphere([](Atmosphere& a) { a.centre.z = 0.7f; }),
+        ofAtmosphere([](Atmosphere& a) { a.radius = 7.0f; }),
         [](Scene& s) { s.meshes.push_back(s.meshes[0]); },
         [](Scene& s) { s.instances.push_back(s.instances[0]); },
         [](Scene& s) { s.lights.push_back(s.lights[0]); },
@@ -173,7 +188,7 @@ std::vector<Edit> edits()
         ofMaterial([](Material& m) { m.detail.reset(); }),
         ofDetail([](MaterialDetail& d) { d.thinWalled = true; }),
         ofDetail([](MaterialDetail& d) { d.vertexColors = !d.vertexColors; }),
-        ofDetail([](MaterialDetail& d) { d.attenuationColor.y = 0.7f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.sigmaA.y = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.specular = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.specularColor.y = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.clearcoat = 0.7f; }),
@@ -190,7 +205,10 @@ std::vector<Edit> edits()
         ofDetail([](MaterialDetail& d) { d.places[kNormalRole].set = 7; }),
         ofDetail([](MaterialDetail& d) { d.places[kNormalRole].u.x = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.places[kNormalRole].v.x = 0.7f; }),
-        ofDetail([](MaterialDetail& d) { d.attenuationDistance = 7.0f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.sigmaS.x = 7.0f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.emission.z = 7.0f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.anisotropy = 0.7f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.priority = 7; }),
         ofDetail([](MaterialDetail& d) { d.sheenColor.y = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.iridescenceThickness.y = 7.0f; }),
         ofDetail([](MaterialDetail& d) { d.textures[kNormalRole] = 0; }),

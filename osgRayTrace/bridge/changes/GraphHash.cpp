@@ -12,6 +12,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 
 #include <osg/Billboard>
 #include <osg/ClearNode>
@@ -70,6 +71,8 @@ public:
                         light->getRadiance(), light->getTwoSided());
         if (dynamic_cast<const EnvironmentLight*>(&node))
             _hasher.add(lightHash(NodeKind::Environment, node, _kept));
+        if (dynamic_cast<const MediumVolume*>(&node))
+            _hasher.add(lightHash(NodeKind::Volume, node, _kept));
         enter(node);
     }
 
@@ -289,7 +292,8 @@ bool hasSpecialNodes(osg::Node& node)
         void apply(osg::Node& visited) override
         {
             found = found || dynamic_cast<AreaLight*>(&visited) ||
-                    dynamic_cast<EnvironmentLight*>(&visited);
+                    dynamic_cast<EnvironmentLight*>(&visited) ||
+                    dynamic_cast<MediumVolume*>(&visited);
             if (!found) traverse(visited);
         }
         void apply(osg::LightSource&) override { found = true; }

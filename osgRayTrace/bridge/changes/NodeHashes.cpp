@@ -10,6 +10,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 
 #include <osg/Geode>
 #include <osg/LightSource>
@@ -101,6 +102,7 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node)
     }
     case NodeKind::AreaLight:
     case NodeKind::Environment:
+    case NodeKind::Volume:
         return bitsOf(node.getStateSet()) + hintHash(node);
     case NodeKind::Geometry:
     case NodeKind::Untracked:
@@ -114,6 +116,13 @@ uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept)
     if (kind == NodeKind::Environment)
         return environmentHash(static_cast<const EnvironmentLight&>(node), kept);
     Hasher hasher(kept);
+    if (kind == NodeKind::Volume)
+    {
+        const auto& volume = static_cast<const MediumVolume&>(node);
+        addMedium(hasher, volume.getMedium());
+        hasher.add(volume.getRadius());
+        return hasher.value();
+    }
     if (kind == NodeKind::AreaLight)
     {
         const auto& light = static_cast<const AreaLight&>(node);

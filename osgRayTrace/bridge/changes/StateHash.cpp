@@ -56,6 +56,7 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
                material.getIridescence(), material.getIridescenceIor(),
                material.getIridescenceThicknessMinimum(),
                material.getIridescenceThicknessMaximum());
+    addMedium(hasher, material.getInterior());
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);
@@ -174,6 +175,14 @@ void addRead(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads& r
 }
 
 } // namespace
+
+void addMedium(Hasher& hasher, const osgRayTrace::Medium* medium)
+{
+    hasher.addObject(medium);
+    if (!medium) return;
+    hasher.add(medium->getAbsorption(), medium->getScattering(), medium->getEmission(),
+               medium->getAnisotropy(), medium->getPriority());
+}
 
 void addImage(Hasher& hasher, const osg::Image* image)
 {

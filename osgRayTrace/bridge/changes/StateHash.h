@@ -6,6 +6,8 @@
 #include "osgRayTrace/bridge/common/Hasher.h"
 #include "osgRayTrace/bridge/common/ShaderState.h"
 
+#include <osgRayTrace/Medium>
+
 #include <osg/Light>
 #include <osg/StateSet>
 #include <osg/TexGen>
@@ -20,6 +22,9 @@ namespace osgRayTrace::engine
 void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads);
 
 void addLight(Hasher& hasher, const osg::Light& light);
+
+/// Adds the values of a medium; null stands for no medium.
+void addMedium(Hasher& hasher, const osgRayTrace::Medium* medium);
 
 /// Adds an image's modified count and its data; null stands for no image.
 void addImage(Hasher& hasher, const osg::Image* image);

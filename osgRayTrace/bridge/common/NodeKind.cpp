@@ -5,6 +5,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/Geode>
@@ -53,6 +54,7 @@ NodeKind kindOf(const osg::Node& node)
     if (type == typeid(osg::LightSource)) return NodeKind::Light;
     if (type == typeid(AreaLight)) return NodeKind::AreaLight;
     if (type == typeid(EnvironmentLight)) return NodeKind::Environment;
+    if (type == typeid(MediumVolume)) return NodeKind::Volume;
     return isDecorator(node) ? NodeKind::Group : NodeKind::Untracked;
 }
 

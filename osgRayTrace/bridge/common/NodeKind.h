@@ -19,6 +19,7 @@ enum class NodeKind : uint8_t
     Light, ///< the last kind that is a group
     AreaLight,
     Environment,
+    Volume, ///< a MediumVolume, which changes as lights do
     Geometry,
     Untracked, ///< any other class, with all nodes below: see graphHash
 };
@@ -33,7 +34,8 @@ inline bool isTransform(NodeKind kind)
 
 inline bool isLight(NodeKind kind)
 {
-    return kind == NodeKind::Light || kind == NodeKind::AreaLight || kind == NodeKind::Environment;
+    return kind == NodeKind::Light || kind == NodeKind::AreaLight ||
+           kind == NodeKind::Environment || kind == NodeKind::Volume;
 }
 
 /// Returns the children as a list; osg::Group has only virtual calls for one child at a time.

@@ -175,6 +175,7 @@ constexpr ReportReason kReportReasons[] = {
     {"skipped.area-light", "area lights without an area, or not finite"},
     {"skipped.clip-plane", "clip planes that are not finite, or of a number above 7"},
     {"skipped.degenerate", "triangles without an area"},
+    {"skipped.medium-volume", "MediumVolumes without a medium, and all but one of a scene"},
     {"skipped.environment-light", "environment lights without an image, or beside another one"},
     {"skipped.light", "lights that are not finite, or of a number above 16383"},
     {"skipped.not-finite-transform", "transforms that are not finite, with all below them"},

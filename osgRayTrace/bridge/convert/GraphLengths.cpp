@@ -44,6 +44,8 @@ void applyUnit(double unit, CollectedGraph& graph)
         if (!light.eyeSpace) light.engineFromLocal.postMult(scale);
     for (CollectedAreaLight& light : graph.lights.areaLights)
         light.engineFromLocal.postMult(scale);
+    for (CollectedVolume& volume : graph.lights.volumes)
+        volume.engineFromLocal.postMult(scale);
     for (PlacedTexGen& texGen : graph.texGens)
         texGen.engineFromLocal.postMult(scale);
     graph.clipPlanes.applyUnit(unit);

@@ -26,7 +26,9 @@ template <class Is> bool anyUse(const CollectedGraph& graph, const Is& is)
 bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
 {
     if (rule != RayTraceSettings::AUTOMATIC_COLOR) return rule == RayTraceSettings::LINEAR;
-    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty()) return true;
+    if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty() ||
+        !graph.lights.volumes.empty())
+        return true;
     return anyUse(graph, [](const GraphState& state)
                   { return state.attributes[kPhysicalMaterialSlot] != nullptr; });
 }

@@ -51,6 +51,7 @@ void SceneBuilder::build()
     _scene.origin = {_input.origin.x(), _input.origin.y(), _input.origin.z()};
     _scene.unit = _rules.unit;
     _scene.displayReferred = !_rules.linear;
+    _scene.fogUse = _input.fogUse;
     _scene.background = backgroundOf(_graph.clearColor.value_or(_input.clearColor), _rules.linear);
     _scene.ambient = Vec3(_input.lighting ? kViewerAmbient : kOpenGLAmbient);
     recordNew();

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentImages.h"
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
+#include "osgRayTrace/bridge/appearance/materials/MediumConversion.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 
 #include <osg/LightSource>
@@ -177,6 +178,29 @@ void addEnvironment(Scene& scene, const std::vector<CollectedEnvironment>& sourc
     if (!found && !sources.empty()) scene.lights.push_back(magentaLight(sources.front().path));
 }
 
+/// Sets the medium that fills the scene: that of the first volume that has one.
+void setAtmosphere(Scene& scene, const std::vector<CollectedVolume>& sources,
+                   ConversionReport& report)
+{
+    scene.atmosphere.reset();
+    for (const CollectedVolume& source : sources)
+    {
+        if (!source.volume->getMedium() || scene.atmosphere)
+        {
+            report.warn("skipped.medium-volume", "medium volume '" + source.path + "'",
+                        scene.atmosphere ? "the scene has one before it, skipped"
+                                         : "it has no medium, skipped");
+            continue;
+        }
+        Atmosphere atmosphere;
+        atmosphere.medium = mediumOf(*source.volume->getMedium());
+        const osg::Vec3d centre = source.engineFromLocal.getTrans();
+        atmosphere.centre = Vec3(Vec3d(centre.x(), centre.y(), centre.z()));
+        atmosphere.radius = static_cast<float>(double(source.volume->getRadius()) / scene.unit);
+        scene.atmosphere = std::make_shared<const Atmosphere>(atmosphere);
+    }
+}
+
 } // namespace
 
 void setLights(Scene& scene, const ConversionInput& input, const LightSources& sources,
@@ -186,6 +210,7 @@ void setLights(Scene& scene, const ConversionInput& input, const LightSources& s
     addShining(scene, caches.areaLights);
     addNumbered(scene, input, sources.lights, report);
     addEnvironment(scene, sources.environments, caches.environment, report);
+    setAtmosphere(scene, sources.volumes, report);
 }
 
 uint64_t viewerLights(const ConversionCounts& counts)

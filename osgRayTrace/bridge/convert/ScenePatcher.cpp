@@ -163,6 +163,7 @@ bool ScenePatcher::relight()
     if (report.counts() != _convertedGraph.lightCounts)
         return refuse(ConversionCause::LightReport, {});
     _changed |= stampLights(_scene->lights, _last.lights, _now);
+    _changed |= !sameAtmosphere(*_scene, _last);
     if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
     const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
     for (std::size_t i = 0; i < count; ++i)

@@ -63,6 +63,12 @@ bool stampParts(std::vector<Part>& parts, const std::vector<Part>& previous, Sta
 
 } // namespace
 
+bool sameAtmosphere(const Scene& a, const Scene& b)
+{
+    if (!a.atmosphere || !b.atmosphere) return a.atmosphere == b.atmosphere;
+    return *a.atmosphere == *b.atmosphere;
+}
+
 bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous, Stamp now)
 {
     return !stampParts(lights, previous, now,
@@ -86,6 +92,7 @@ std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
     unchanged &= scene->origin == old.origin && scene->unit == old.unit &&
                  scene->ambient == old.ambient && scene->background == old.background &&
                  scene->displayReferred == old.displayReferred;
+    unchanged &= sameAtmosphere(*scene, old) && scene->fogUse == old.fogUse;
     scene->changed = now;
     return unchanged ? previous : scene;
 }

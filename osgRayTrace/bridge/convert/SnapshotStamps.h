@@ -19,4 +19,7 @@ std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
 /// Stamps lights alone by the same rule. Returns whether one of them or their number differs.
 bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous, Stamp now);
 
+/// Returns whether the same medium fills both scenes.
+bool sameAtmosphere(const Scene& a, const Scene& b);
+
 } // namespace osgRayTrace::engine

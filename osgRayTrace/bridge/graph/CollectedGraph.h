@@ -13,6 +13,7 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/MediumVolume>
 
 #include <osg/Geometry>
 #include <osg/LightSource>
@@ -87,12 +88,20 @@ struct CollectedEnvironment
     std::string path;
 };
 
+struct CollectedVolume
+{
+    osg::ref_ptr<const MediumVolume> volume;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+};
+
 /// The lights stand in the order of the traversal.
 struct LightSources
 {
     std::vector<CollectedLight> lights;
     std::vector<CollectedAreaLight> areaLights;
     std::vector<CollectedEnvironment> environments;
+    std::vector<CollectedVolume> volumes; ///< which are what light travels through
 };
 
 /// The attributes of states belong to the collector's state sets and are valid as long as the

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 #include "osgRayTrace/bridge/common/CullPass.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
+#include "osgRayTrace/scene/Fog.h"
 
 #include <osgRayTrace/MaterialHook>
 #include <osgRayTrace/RayTraceSettings>
@@ -29,6 +30,7 @@ struct ConversionSettings
     RayTraceSettings::ColorRule colorRule = RayTraceSettings::AUTOMATIC_COLOR;
     bool cullAllRays = false;
     bool headlightShadows = false;
+    FogUse fogUse = FogUse::Depth;
     LightSizes lightSizes;
     float pointRadius = 0.0f;                         ///< see RayTraceSettings
     std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
@@ -40,18 +42,24 @@ struct ConversionSettings
     bool operator==(const ConversionSettings& other) const
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
-               headlightShadows == other.headlightShadows && lightSizes == other.lightSizes &&
-               pointRadius == other.pointRadius && materials == other.materials &&
-               hook == other.hook;
+               headlightShadows == other.headlightShadows && fogUse == other.fogUse &&
+               lightSizes == other.lightSizes && pointRadius == other.pointRadius &&
+               materials == other.materials && hook == other.hook;
     }
 };
+
+inline FogUse fogUseOf(RayTraceSettings::Fog fog)
+{
+    if (fog == RayTraceSettings::MEDIUM_FOG) return FogUse::Medium;
+    return fog == RayTraceSettings::NO_FOG ? FogUse::Off : FogUse::Depth;
+}
 
 inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
-    return {settings.getColorRule(),   settings.getCullAllRays(), settings.getHeadlightShadows(),
-            lightSizesOf(settings),    settings.getPointRadius(), std::move(materials),
-            settings.getMaterialHook()};
+    return {settings.getColorRule(),     settings.getCullAllRays(), settings.getHeadlightShadows(),
+            fogUseOf(settings.getFog()), lightSizesOf(settings),    settings.getPointRadius(),
+            std::move(materials),        settings.getMaterialHook()};
 }
 
 /// Holds the graph to convert and the conditions of the conversion.

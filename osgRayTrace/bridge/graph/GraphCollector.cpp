@@ -335,6 +335,11 @@ bool GraphCollector::collectLeaf(osg::Node& node)
         _graph.lights.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }
+    if (const auto* volume = dynamic_cast<const MediumVolume*>(&node))
+    {
+        _graph.lights.volumes.push_back({volume, engineFromLocal(), path()});
+        return true;
+    }
     if (isFrom(&node, "osg")) return false;
     if (_lightsOnly) return true;
     if (const char* reason = untracedLeaf(node))

@@ -22,7 +22,7 @@ constexpr double kRounding = 8.0 * 0x1p-24;
 
 /// Weights of corners that are so far outside of the triangle mean that the graph has changed since
 /// it was traced.
-constexpr double kOutside = 1e-3;
+constexpr double kBeside = 1e-3;
 
 /// Returns a row of an array, by number, if the array has a type that osg::Geometry may have for
 /// vertices.
@@ -195,7 +195,7 @@ bool ScenePicker::placeOnTriangle(const osg::Geometry& geometry, const UVec3& ro
     if (determinant == 0.0) return false;
     const double u = (p * toStart) / determinant, v = (q * d) / determinant;
     const double exact = (q * ac) / determinant;
-    const bool inside = u > -kOutside && v > -kOutside && u + v < 1.0 + kOutside;
+    const bool inside = u > -kBeside && v > -kBeside && u + v < 1.0 + kBeside;
     // A surface that was raised, or has moved since, is at another place.
     const double size = (ab.length() + ac.length()) / d.length();
     if (!inside || !(std::fabs(exact - ratio) <= 1e-4 * (std::fabs(ratio) + size))) return false;

@@ -49,6 +49,20 @@ const char* noteText(PhotonNote note)
     return "";
 }
 
+const char* noteText(MediumNote note)
+{
+    switch (note)
+    {
+    case MediumNote::None:
+        return "";
+    case MediumNote::PathsInstead:
+        return "scenes with participating media are path traced: photons do not meet media yet";
+    case MediumNote::SingleOnly:
+        return "whitted has single scattering alone: path has all of the light in media";
+    }
+    return "";
+}
+
 std::string lightNote(const SampledLightCounts& lights)
 {
     std::string note;
@@ -123,6 +137,10 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonNote = noteText(progress.photonNote);
     if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
+    statistics.mediumNote = noteText(progress.mediumNote);
+    if (!statistics.mediumNote.empty()) warnOnce(statistics.mediumNote);
+    statistics.collisions = progress.collisions;
+    statistics.cutWalks = progress.cutWalks;
     statistics.droppedSamples = progress.droppedSamples;
 }
 

@@ -64,6 +64,17 @@ public:
     /// Returns the flags of the same path, marked as reused.
     PathFlags reused() const { return PathFlags(_word | kReused); }
 
+    /// Returns whether the path has last been scattered by a medium, or met mirror-like surfaces
+    /// alone since then. A ray that comes straight from the medium does not count lights that are
+    /// sampled.
+    bool hasCollided() const { return (_word & kCollided) != 0; }
+
+    /// Returns the flags of the same path after a medium has scattered it.
+    PathFlags collided() const
+    {
+        return PathFlags((_word & ~(kCausticChain | kGathered)) | kScattered | kCollided);
+    }
+
     /// Returns the word after a surface, for loops over lanes. Each of the other arguments is all
     /// bits or none: gathering if photons were looked up, rough if photons were looked up on a
     /// rough surface, carried if photons carry what the surface scatters of the light that the path
@@ -74,8 +85,8 @@ public:
     {
         const uint32_t taken = (word | rough) & kTaken;
         const uint32_t gathered = (gathering & kGathered) | (taken / kTaken * kGathered);
-        const uint32_t scattered = (word & ~(kCausticChain | kGathered)) | kScattered | taken |
-                                   gathered | (carried & kCausticChain);
+        const uint32_t scattered = (word & ~(kCausticChain | kGathered | kCollided)) | kScattered |
+                                   taken | gathered | (carried & kCausticChain);
         const uint32_t chained = word | ((0u - ((word / kGathered) & 1u)) & kCausticChain);
         return (chained & mirrored) | (scattered & ~mirrored);
     }
@@ -88,6 +99,7 @@ private:
     static constexpr uint32_t kGathered = 0x40000u;
     static constexpr uint32_t kTaken = 0x80000u;
     static constexpr uint32_t kSplit = 0x100000u;
+    static constexpr uint32_t kCollided = 0x200000u;
     static_assert((kTilePixels & (kTilePixels - 1)) == 0 && 2 * kTilePixels <= kScattered,
                   "the pixel and the bit of reuse are below the other bits");
 

@@ -22,7 +22,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SurfaceTangents.h"
-#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/path/PathMedium.h"
 #include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
 #include "osgRayTrace/integrators/shared/FogLanes.h"
@@ -43,6 +43,8 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
 {
     facingNormalLanes(block.rays.ray, bounce.surface, bounce.normal);
     const MaterialTable& materials = tile.context.traced->materials();
+    const SceneTraits& traits = tile.context.traced->traits();
+    const MediumTable* media = traits.media ? &tile.context.traced->media() : nullptr;
     bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = 0;
     for (const int i : lanesIn(bounce.surface.hits))
     {
@@ -60,6 +62,9 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                 ? (front ? record.front : record.back)
                 : materials.bsdf(bounce.surface.material[i],
                                  materialPoint(tile.context, block.rays, bounce.surface, i));
+        if (media)
+            setRelativeIor(*media, block.bodies[i], media->interiorOf(bounce.surface.material[i]),
+                           front, bounce.bsdfs[i]);
         if (record.pane) dropStraightLobe(bounce.bsdfs[i]);
         if (bounce.bsdfs[i].needsAxes())
             alignLayers(*tile.context.traced, block.rays, bounce.surface, i,
@@ -78,13 +83,13 @@ void passMaterials(Tile& tile, PathBlock& block, Bounce& bounce, int number)
 {
     const TracedScene& traced = *tile.context.traced;
     const HitRule rule = number == 0 ? kCameraRays : HitRule();
-    if (traced.traits().panes)
+    if (traced.traits().panes && !traced.traits().media) // travelMedia has passed panes
         bounce.behindPanes = passPanes(
             tile.context, {block.rays, block.active, rule, bounce.surface, block.throughput},
             tile.counts);
     if (traced.traits().panes && traced.traits().mipmaps)
         setFootprints(block.rays.ray, block.cones, bounce.surface);
-    if (traced.traits().attenuation)
+    if (traced.traits().attenuation && !traced.traits().media)
         attenuate(tile.context, block.rays, bounce.surface, block.throughput);
 }
 
@@ -94,7 +99,7 @@ void addFog(Tile& tile, PathBlock& block, const Bounce& bounce)
     LaneMask mirrored = 0;
     for (const int i : lanesIn(bounce.number > 0 ? bounce.surface.hits : 0))
         mirrored |= static_cast<LaneMask>(!block.flagsOf(i).isScattered()) << i;
-    const LaneMask fromCamera = bounce.number == 0 ? bounce.surface.hits : 0;
+    const LaneMask fromCamera = bounce.number == 0 ? bounce.surface.hits & ~bounce.collided : 0;
     FogLanes fog;
     fogOf(tile.context, {block.rays, bounce.surface, fromCamera, mirrored}, block.depth, fog);
     for (const int i : lanesIn(fog.lanes))
@@ -103,6 +108,22 @@ void addFog(Tile& tile, PathBlock& block, const Bounce& bounce)
         tile.sums.add(block.flagsOf(i), throughput * laneOf(fog.added, i));
         setLane(block.throughput, i, throughput * fog.share[i]);
     }
+}
+
+/// Takes the paths of a block through media. What is seen first is what stands behind the media.
+LaneMask throughMedia(Tile& tile, int b, int number, bool last)
+{
+    PathBlock& block = tile.paths.blocks[b];
+    if (number == 0)
+    {
+        SurfaceLanes seen;
+        surfacesOf(tile.context.traced->surfaces(), block.rays, block.active, seen,
+                   rayStart(tile.context.options));
+        if (tile.context.traced->traits().mipmaps) setFootprints(block.rays.ray, block.cones, seen);
+        recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, seen,
+                        tile.result.firstHits);
+    }
+    return travelMedia(tile, block, number, last);
 }
 
 /// Traces the paths of a block over one bounce.
@@ -117,19 +138,23 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     (number == 0 ? tile.counts.cameraRays : tile.counts.secondaryRays) += rays;
     countRays(tile, block, block.active);
 
+    const SceneTraits& traits = traced.traits();
     Bounce bounce;
     bounce.number = number;
     bounce.bsdfs = tile.bsdfs;
+    if (traits.media) bounce.collided = throughMedia(tile, b, number, last);
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
                rayStart(tile.context.options));
-    const SceneTraits& traits = traced.traits();
     if (traits.normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
     if (traits.mipmaps) setFootprints(block.rays.ray, block.cones, bounce.surface);
-    if (number == 0) // a pane is what is seen first, also by rays that go on behind it
+    if (number == 0 &&
+        !traits.media) // a pane is what is seen first, also by rays that go on behind it
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, bounce.surface,
                         tile.result.firstHits);
     if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, number);
-    addEnvironment(tile, block, block.active & ~bounce.surface.hits, number, use);
+    const LaneMask missed = block.active & ~bounce.surface.hits;
+    addEnvironment(tile, block, missed & ~bounce.collided, number, use);
+    if (bounce.collided) addEnvironment(tile, block, missed & bounce.collided, number + 1, use);
     if (traits.fog) addFog(tile, block, bounce);
     addEmission(tile, block, bounce.surface, number, use);
     for (const int i : lanesIn(number == 0 ? bounce.surface.hits : 0))
@@ -158,11 +183,14 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     if (traced.lights().tree())
         block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
     scatter(tile, block, bounce);
+    if (traits.media) enterBodies(tile, block, bounce);
 }
 
 void tracePaths(Tile& tile, PhotonUse use)
 {
     const PassContext& context = tile.context;
+    const bool media = context.traced->traits().media;
+    const MediumStack around = media ? bodiesAround(context, context.eye) : MediumStack();
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.paths.blocks[b];
@@ -174,6 +202,7 @@ void tracePaths(Tile& tile, PhotonUse use)
             setLane(block.throughput, i, Vec3(1.0f));
             block.pdfW[i] = kInfinity;
             block.etaScale[i] = 1.0f;
+            block.bodies[i] = around;
             block.flags[i] = PathFlags::ofPixel(static_cast<uint32_t>(b * kLanes + i)).word();
         }
         block.active = kAllLanes;

@@ -1,7 +1,7 @@
 // PathLight.cpp - adds light that paths meet by chance or by light samples. Layer: integrators.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/path/PathMedium.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/LightBsdfs.h"
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
@@ -83,6 +83,8 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         {
             if (use == PhotonUse::Caustics && block.flagsOf(i).isOnCausticChain())
                 continue; // photons carry it
+            if (block.flagsOf(i).hasCollided() && block.pdfW[i] < kInfinity)
+                continue; // sampled along the ray that collided
             weight = powerHeuristic(block.pdfW[i],
                                     pdfOfLight(traced.lights(), light, number, block, surface, i));
         }
@@ -117,8 +119,8 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
 
 } // namespace
 
-void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
-              LaneMask visible, LaneMask withoutMis)
+static void addClearLight(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                          const LightLanes& light, LaneMask visible, LaneMask withoutMis)
 {
     if (visible & bounce.diffuse)
     {
@@ -143,6 +145,19 @@ void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const Li
         tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
                                             (light.weight[i] * mis));
     }
+}
+
+void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+              LaneMask visible, LaneMask withoutMis)
+{
+    if (!tile.context.traced->traits().media)
+    {
+        addClearLight(tile, block, bounce, light, visible, withoutMis);
+        return;
+    }
+    LightLanes dimmed = light;
+    dimSamples(tile, block, bounce, visible, dimmed);
+    addClearLight(tile, block, bounce, dimmed, visible, withoutMis);
 }
 
 namespace

@@ -28,6 +28,7 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.cones.width[k] = from.cones.width[i];
     to.cones.spread[k] = from.cones.spread[i];
     to.depth[k] = from.depth[i];
+    to.bodies[k] = from.bodies[i];
 }
 
 /// Sets the fields that Embree reads of all rays of a packet and that no copy of a path sets.

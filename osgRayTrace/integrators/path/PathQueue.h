@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/RayBlock.h"
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/integrators/path/PathFlags.h"
+#include "osgRayTrace/integrators/shared/MediumRays.h"
 #include "osgRayTrace/integrators/shared/RayCones.h"
 #include "osgRayTrace/integrators/shared/TreeLights.h"
 
@@ -22,6 +23,7 @@ struct PathBlock
     UintLanes flags;      ///< words of PathFlags
     ConeLanes cones;      ///< set in scenes with SceneTraits::mipmaps
     FloatLanes depth;     ///< way from the eye to the ray's start, in scenes with SceneTraits::fog
+    MediumLanes bodies;   ///< bodies that the rays begin in, in scenes with SceneTraits::media
     TreePoints vertices;  ///< points that the rays left; set in scenes with a LightTree
     LaneMask active = 0;
 

@@ -163,7 +163,8 @@ void connectGroup(Tile& tile, int group)
 void beginReuse(Tile& tile, PhotonUse use)
 {
     const GatheredPhotons* gathered = tile.result.photons.gathered;
-    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate);
+    tile.reuse.active = use != PhotonUse::Indirect && !(gathered && gathered->separate) &&
+                        !tile.context.traced->traits().media;
     const PassKey& key = tile.context.key;
     const uint32_t seed =
         pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom));

@@ -13,10 +13,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Paths with a throughput below this bound may be ended by chance. Measurements on the Cornell box
-/// find bounds of 0.33 to 0.5 equally good: 1 leaves more noise, and below 0.3 paths cost more.
-constexpr float kRouletteThroughput = 0.4f;
-
 /// NextRays holds the next ray of each lane.
 struct NextRays
 {

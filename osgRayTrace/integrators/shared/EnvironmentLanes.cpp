@@ -39,6 +39,17 @@ bool setLane(const SurfaceLanes& surface, int i, Vec3 wi, bool transmissive, Vec
 
 } // namespace
 
+SkySample sampleSky(const PassContext& context, const PlacedEnvironment& environment, Vec2 u,
+                    bool alone)
+{
+    const bool uniform = context.options.environmentSampling == EnvironmentSampling::Uniform;
+    const EnvironmentDensity density =
+        alone ? EnvironmentDensity::Luminance : EnvironmentDensity::Compensated;
+    const EnvironmentSample sample =
+        uniform ? uniformSample(environment, u.x, u.y) : environment.sample(u.x, u.y, density);
+    return {sample.direction, sample.radiance, sample.pdfW};
+}
+
 void environmentLanes(const PassContext& context, const LightReceivers& receivers, LaneMask alone,
                       LightLanes& samples)
 {

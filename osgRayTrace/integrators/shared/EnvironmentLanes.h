@@ -14,6 +14,18 @@ namespace osgRayTrace::engine
 void environmentLanes(const PassContext& context, const LightReceivers& receivers, LaneMask alone,
                       LightLanes& samples);
 
+/// A direction towards the environment.
+struct SkySample
+{
+    Vec3 direction{0.0f, 0.0f, 1.0f};
+    Vec3 radiance{0.0f};
+    float pdfW = 0.0f; ///< [1/sr]
+};
+
+/// Returns a sample as environmentLanes takes it; alone: no ray finds this light by chance.
+SkySample sampleSky(const PassContext& context, const PlacedEnvironment& environment, Vec2 u,
+                    bool alone);
+
 /// Sets samples as environmentLanes does, towards one stratum. inversePmf is 1 over the probability
 /// with which the lanes chose the stratum.
 void stratumLanes(const EnvironmentStratum& stratum, float inversePmf, const SurfaceLanes& surface,

@@ -7,12 +7,14 @@ namespace osgRayTrace::engine
 
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
 {
+    if (traits.media && photonUse(wanted) != PhotonUse::None) return IntegratorKind::Path;
     if (wanted != IntegratorKind::Automatic) return wanted;
+    if (traits.scattering) return IntegratorKind::Path;
     if (!traits.physical) return IntegratorKind::Whitted;
     const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
     const bool caustics = (lights && (traits.specular || traits.transmission)) ||
                           ((traits.areaLights || traits.deltaLights) && traits.glossy);
-    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+    return caustics && !traits.media ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 
 bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits)

@@ -68,6 +68,18 @@ void meetBehind(const PassContext& context, const PaneRays& lanes, LaneMask pass
 
 } // namespace
 
+bool goesThroughPane(const PassContext& context, const RayHitBlock& rays,
+                     const SurfaceLanes& surface, int i, Vec3Lanes& throughput)
+{
+    const Vec3 share = paneAt(context, rays, surface, i);
+    const float p = std::min(std::max(share.x, std::max(share.y, share.z)), 1.0f);
+    if (!(p > 0.0f)) return false;
+    const bool goesOn = p > 1.0f - 1e-6f || chance(rays, surface, i) < p;
+    const Vec3 weight = goesOn ? share / p : Vec3(1.0f / (1.0f - p));
+    setLane(throughput, i, laneOf(throughput, i) * weight);
+    return goesOn;
+}
+
 LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts)
 {
     LaneMask open = lanes.active, all = 0;
@@ -76,12 +88,8 @@ LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts
         LaneMask passed = 0;
         for (const int i : lanesIn(open & lanes.surface.hits))
         {
-            const Vec3 share = paneAt(context, lanes.rays, lanes.surface, i);
-            const float p = std::min(std::max(share.x, std::max(share.y, share.z)), 1.0f);
-            if (!(p > 0.0f)) continue;
-            const bool goesOn = p > 1.0f - 1e-6f || chance(lanes.rays, lanes.surface, i) < p;
-            const Vec3 weight = goesOn ? share / p : Vec3(1.0f / (1.0f - p));
-            setLane(lanes.throughput, i, laneOf(lanes.throughput, i) * weight);
+            const bool goesOn =
+                goesThroughPane(context, lanes.rays, lanes.surface, i, lanes.throughput);
             passed |= static_cast<LaneMask>(goesOn) << i;
         }
         if (!passed) return all;
@@ -101,7 +109,8 @@ LaneMask throughPanes(const PassContext& context, const RayBlock& shadow, LaneMa
     LaneMask visible = 0;
     for (int panes = 0; panes < kMostPanes && blocked; ++panes)
     {
-        context.traced->intersector().closestHits(rays, blocked, Coherence::Incoherent);
+        context.traced->intersector().closestHits(rays, blocked, Coherence::Incoherent,
+                                                  kShadowRays);
         counts.shadowRays += static_cast<uint64_t>(countLanes(blocked));
         SurfaceLanes surface;
         surfacesOf(context.traced->surfaces(), rays, blocked, surface);
@@ -140,7 +149,7 @@ LaneMask attenuate(const PassContext& context, const RayHitBlock& rays, const Su
     for (const int i : lanesIn(surface.hits & ~surface.front))
     {
         const MaterialRecord& record = materials[surface.material[i]];
-        if (!record.absorbs) continue;
+        if (!record.absorbs || record.interface) continue; // media beyond interfaces: addAir
         setLane(throughput, i, laneOf(throughput, i) * transmittanceOver(record, rays.ray.tFar[i]));
         changed |= 1u << i;
     }

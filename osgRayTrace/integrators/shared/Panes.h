@@ -28,6 +28,11 @@ struct PaneRays
 /// call.
 LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts& counts);
 
+/// Lets the ray of lane i pass a pane as passPanes does, or returns false: it stays there. Changes
+/// its throughput in both cases.
+bool goesThroughPane(const PassContext& context, const RayHitBlock& rays,
+                     const SurfaceLanes& surface, int i, Vec3Lanes& throughput);
+
 /// Leaves out the lobe that passPanes has taken.
 inline void dropStraightLobe(Bsdf& bsdf)
 {

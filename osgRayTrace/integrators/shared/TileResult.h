@@ -21,6 +21,8 @@ struct TileCounts
     uint64_t shadowRays = 0;
     uint64_t secondaryRays = 0;
     uint64_t droppedSamples = 0;
+    uint64_t collisions = 0; ///< with media
+    uint64_t cutWalks = 0;   ///< paths that ended within a medium: see kMostCollisions
 };
 
 /// The values that the debug channels show, by pixel of the tile: block * kLanes + lane.

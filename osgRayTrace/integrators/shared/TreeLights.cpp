@@ -114,9 +114,8 @@ bool triangleLane(const LightEmitter& e, float pmf, const LightReceivers& receiv
     return true;
 }
 
-/// Sets the radiance of lane i, whose emitter is a textured triangle.
-void setTexturedRadiance(const PassContext& context, const LightEmitter& emitter, float u, float v,
-                         int i, LightLanes& samples)
+/// Returns the radiance of a point of a textured triangle.
+Vec3 texturedRadiance(const PassContext& context, const LightEmitter& emitter, float u, float v)
 {
     const Scene& scene = context.traced->scene();
     const Instance& instance = scene.instances[scene.lights[emitter.light].instance];
@@ -133,12 +132,21 @@ void setTexturedRadiance(const PassContext& context, const LightEmitter& emitter
         uv = uvs[t.x] + b * (uvs[t.y] - uvs[t.x]) + c * (uvs[t.z] - uvs[t.x]);
     }
     point.setUv(set, uv);
-    const Vec3 radiance = context.traced->materials().emission(instance.material, point);
-    for (int k = 0; k < 3; ++k)
-        samples.radiance[k][i] = radiance[k];
+    return context.traced->materials().emission(instance.material, point);
 }
 
 } // namespace
+
+EmitterPoint emitterPoint(const PassContext& context, const LightEmitter& emitter, float u, float v)
+{
+    const Quad q = quadOf(emitter);
+    const bool folded = (emitter.flags & kTriangle) && u + v > 1.0f;
+    const PlainVec3 on = pointOn(q, folded ? 1.0f - u : u, folded ? 1.0f - v : v);
+    const Vec3 radiance = emitter.flags & kTextured
+                              ? texturedRadiance(context, emitter, u, v)
+                              : Vec3(q.radiance.x, q.radiance.y, q.radiance.z);
+    return {Vec3(on.x, on.y, on.z), Vec3(q.normal.x, q.normal.y, q.normal.z), q.offset, radiance};
+}
 
 TreePoints treePoints(const SurfaceLanes& surface, const Vec3Lanes& normal, LaneMask throughSurface)
 {
@@ -182,8 +190,10 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
             isLit = rectangleLane(emitter, samples.pmf[i], receivers, i, laneBit(transmissive, i),
                                   lights);
         lights.lit |= static_cast<LaneMask>(isLit) << i;
-        if (emitter.flags & kTextured)
-            setTexturedRadiance(context, emitter, receivers.u[i], receivers.v[i], i, lights);
+        if (!(emitter.flags & kTextured)) continue;
+        const Vec3 radiance = texturedRadiance(context, emitter, receivers.u[i], receivers.v[i]);
+        for (int k = 0; k < 3; ++k)
+            lights.radiance[k][i] = radiance[k];
     }
 }
 

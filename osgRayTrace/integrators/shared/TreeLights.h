@@ -27,6 +27,16 @@ struct TreeSamples
 TreePoints treePoints(const SurfaceLanes& surface, const Vec3Lanes& normal,
                       LaneMask throughSurface);
 
+/// A point on an emitter that is no point light, evenly spread by area.
+struct EmitterPoint
+{
+    Vec3 position, normal; ///< the normal is unit, of the front
+    float offset;          ///< see Quad
+    Vec3 radiance;
+};
+EmitterPoint emitterPoint(const PassContext& context, const LightEmitter& emitter, float u,
+                          float v);
+
 /// Chooses an emitter in each lane by choice, in [0,1), and sets its sample at point (u, v) of
 /// receivers. picks: number of samples that the points take. There must be a tree.
 void treeLightLanes(const PassContext& context, const TreePoints& points, const FloatLanes& choice,

@@ -175,6 +175,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
         block->passed = traits.blended ? passThrough(tile, *block) : 0;
         if (traits.attenuation)
             block->passed |= attenuate(tile.context, block->rays, block->surface, block->weight);
+        if (traits.media) block->passed |= block->dimmed;
     }
     addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -217,6 +218,12 @@ void traceSecondary(WhittedTile& tile)
     countRays(tile, block, active);
     surfacesOf(traced.surfaces(), block.rays, active, block.surface,
                rayStart(tile.context.options));
+    if (traced.traits().media)
+    {
+        addAir(tile, block, active);
+        for (const int i : lanesIn(block.dimmed))
+            tile.add(block.pixel[i], laneOf(block.air, i));
+    }
     for (const int i : lanesIn(active & ~block.surface.hits))
     {
         if (fromCamera && !seen)
@@ -274,6 +281,19 @@ void startCamera(uint32_t firstPixel, ShadingBlock& block)
     block.fromCamera = kAllLanes;
 }
 
+/// Adds the air before the hits of camera rays. The background shows through what is left of its
+/// light.
+void showAir(WhittedTile& tile, const ShadingBlock& block, RgbaLanes& rgba)
+{
+    for (const int i : lanesIn(block.dimmed))
+    {
+        tile.add(block.pixel[i], laneOf(block.air, i));
+        const Vec3 left = laneOf(block.weight, i);
+        const float cover = std::clamp(1.0f - (left.x + left.y + left.z) / 3.0f, 0.0f, 1.0f);
+        if (!((block.surface.hits >> i) & 1u)) rgba.a[i] = std::max(rgba.a[i], cover);
+    }
+}
+
 /// Traces the camera rays of blocks first to first + kGroup - 1, stage by stage.
 void traceCamera(WhittedTile& tile, int left, int bottom, int first)
 {
@@ -295,6 +315,9 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface,
                    rayStart(context.options), &tile.lastTriangle);
     tile.result.counts.cameraRays += kGroup * kLanes;
+    const bool media = traced.traits().media;
+    for (ShadingBlock* block = tile.group; media && block != tile.group + kGroup; ++block)
+        addAir(tile, *block, kAllLanes);
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)
     {
@@ -307,9 +330,11 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         setPixels(block.radiance, block.surface.hits, rgba);
         for (const int i : lanesIn(seen ? kAllLanes & ~block.surface.hits : 0))
         {
-            tile.add(block.pixel[i], radianceBehind(context, block.rays.ray, i));
+            const Vec3 behind = radianceBehind(context, block.rays.ray, i);
+            tile.add(block.pixel[i], media ? behind * laneOf(block.weight, i) : behind);
             rgba.a[i] = 1.0f;
         }
+        if (media) showAir(tile, block, rgba);
     }
 }
 

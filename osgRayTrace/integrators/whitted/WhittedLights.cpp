@@ -102,6 +102,7 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
     {
         countRays(tile, *block, block->light.lit);
         block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts);
+        if (tile.context.traced->traits().media) dimSamples(tile, block->light.lit, block->light);
     }
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
         addSampledLight(*block, block->light, block->light.lit, scale);
@@ -178,6 +179,7 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
         if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
     if (light.castsShadows) countRays(tile, block, samples.lit);
     const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
+    if (context.traced->traits().media) dimSamples(tile, visible, samples);
     for (const int i : lanesIn(reached & m.fixedFunction))
         addFixedFunctionLight(block, samples, light, i, share,
                               (visible >> i) & 1u ? samples.weight[i] : 0.0f);

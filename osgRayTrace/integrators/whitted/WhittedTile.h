@@ -68,6 +68,9 @@ struct ShadingBlock
     LaneMask fromCamera = 0; ///< lanes of camera rays, and of those that go on
     LaneMask passed = 0;     ///< lanes whose weight has in part passed a blended surface
 
+    LaneMask dimmed = 0; ///< lanes whose weight media have reduced; see addAir
+    Vec3Lanes air;       ///< light that media send along the rays, times their weight
+
     LaneMaterials materials;
     LightLanes light;   ///< light sample at work
     Vec3Lanes radiance; ///< radiance so far
@@ -143,6 +146,13 @@ bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first);
 
 /// Pushes the mirrored and refracted rays of physical lanes.
 void spawn(WhittedTile& tile, const ShadingBlock& block);
+
+/// Multiplies the weights of active lanes by what media leave of light on their rays, and sets air
+/// and dimmed. Scenes without SceneTraits::media need no call.
+void addAir(WhittedTile& tile, ShadingBlock& block, LaneMask active);
+
+/// Multiplies visible samples by what media leave of them, in scenes with SceneTraits::media.
+void dimSamples(const WhittedTile& tile, LaneMask visible, LightLanes& samples);
 
 /// Pushes rays that go on behind blended lanes, with the weight that the surfaces let through, and
 /// leaves the lanes the rest. Returns the lanes whose weight has become less.

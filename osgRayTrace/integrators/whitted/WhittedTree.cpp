@@ -53,6 +53,7 @@ void addTreeSample(WhittedTile& tile, ShadingBlock& block, LaneMask lanes, TreeS
     for (const int i : lanesIn(reached))
         if (glm::dot(m.points[i].normal, laneOf(lights.wi, i)) <= 0.0f) lights.lit &= ~(1u << i);
     const LaneMask visible = visibleLanes(context, samples, tile.result.counts);
+    if (context.traced->traits().media) dimSamples(tile, visible, lights);
     countRays(tile, block, lights.lit);
     for (const int i : lanesIn(reached))
     {

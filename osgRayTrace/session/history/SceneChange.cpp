@@ -22,11 +22,14 @@ bool sameWorld(const Scene& a, const Scene& b)
 {
     const bool values = a.origin == b.origin && a.unit == b.unit && a.ambient == b.ambient &&
                         a.background == b.background && a.displayReferred == b.displayReferred;
+    const bool air = a.atmosphere == b.atmosphere ||
+                     (a.atmosphere && b.atmosphere && *a.atmosphere == *b.atmosphere);
+    const bool media = air && a.fogUse == b.fogUse;
     const bool lights = std::equal(
         a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(),
         [](const Light& x, const Light& y) { return x.kind == y.kind && x.changed == y.changed; });
     const std::size_t textures = std::min(a.textures.size(), b.textures.size());
-    return values && lights &&
+    return values && media && lights &&
            std::equal(a.textures.begin(), a.textures.begin() + static_cast<long>(textures),
                       b.textures.begin());
 }

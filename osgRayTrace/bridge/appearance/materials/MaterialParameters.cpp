@@ -39,6 +39,21 @@ Values valuesOf(bool flag)
     return {flag ? 1.0 : 0.0};
 }
 
+/// Returns the medium within the material's bodies, which is made if there is none.
+osgRayTrace::Medium& interiorOf(PhysicalMaterial& material)
+{
+    if (!material.getInterior()) material.setInterior(new osgRayTrace::Medium);
+    return *material.getInterior();
+}
+
+/// Returns the same medium, or one of default values.
+const osgRayTrace::Medium& interiorOr(const PhysicalMaterial& material)
+{
+    static const NeverDestroyed<osg::ref_ptr<const osgRayTrace::Medium>> none(
+        new osgRayTrace::Medium);
+    return material.getInterior() ? *material.getInterior() : **none;
+}
+
 const Parameter kParameters[] = {
     {"baseColor", 3, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); },
@@ -71,6 +86,23 @@ const Parameter kParameters[] = {
     {"attenuationDistance", 1, 0.0, kMost,
      [](PhysicalMaterial& m, const Values& v) { m.setAttenuationDistance(numberOf(v)); },
      [](const PhysicalMaterial& m) { return valuesOf(m.getAttenuationDistance()); }},
+    {"interiorAbsorption", 3, 0.0, kMost,
+     [](PhysicalMaterial& m, const Values& v) { interiorOf(m).setAbsorption(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getAbsorption()); }},
+    {"interiorScattering", 3, 0.0, kMost,
+     [](PhysicalMaterial& m, const Values& v) { interiorOf(m).setScattering(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getScattering()); }},
+    {"interiorEmission", 3, 0.0, kMost,
+     [](PhysicalMaterial& m, const Values& v) { interiorOf(m).setEmission(colorOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getEmission()); }},
+    {"interiorAnisotropy", 1, -0.999, 0.999,
+     [](PhysicalMaterial& m, const Values& v) { interiorOf(m).setAnisotropy(numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getAnisotropy()); }},
+    {"interiorPriority", 1, -1e6, 1e6,
+     [](PhysicalMaterial& m, const Values& v)
+     { interiorOf(m).setPriority(static_cast<int>(v[0])); },
+     [](const PhysicalMaterial& m)
+     { return valuesOf(static_cast<float>(interiorOr(m).getPriority())); }},
     {"specular", 1, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setSpecular(numberOf(v)); },
      [](const PhysicalMaterial& m) { return valuesOf(m.getSpecular()); }},

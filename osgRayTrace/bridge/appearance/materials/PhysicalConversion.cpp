@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/PhysicalConversion.h"
 
+#include "osgRayTrace/bridge/appearance/materials/MediumConversion.h"
+
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -58,7 +60,8 @@ bool needsDetail(const PhysicalMaterial& source)
             (role >= kNormalRole || !(source.getTexturePlace(useOf(role)) == plain)))
             return true;
     return source.getVertexColors() || source.getThinWalled() ||
-           source.getAttenuationDistance() > 0.0f || source.getSpecular() != 1.0f ||
+           source.getAttenuationDistance() > 0.0f || source.getInterior() ||
+           source.getSpecular() != 1.0f ||
            source.getSpecularColor() != osg::Vec3(1.0f, 1.0f, 1.0f) ||
            source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3() ||
            source.getAnisotropy() > 0.0f || source.getDiffuseTransmission() > 0.0f ||
@@ -70,8 +73,11 @@ MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inp
     MaterialDetail detail;
     detail.vertexColors = source.getVertexColors() && inputs.hasVertexColors;
     detail.thinWalled = source.getThinWalled();
-    detail.attenuationColor = rgb(source.getAttenuationColor());
-    detail.attenuationDistance = source.getAttenuationDistance();
+    if (source.getInterior())
+        detail.interior = mediumOf(*source.getInterior());
+    else
+        detail.interior.sigmaA =
+            absorptionOf(rgb(source.getAttenuationColor()), source.getAttenuationDistance());
     detail.specular = source.getSpecular();
     detail.specularColor = rgb(source.getSpecularColor());
     detail.clearcoat = source.getClearcoat();

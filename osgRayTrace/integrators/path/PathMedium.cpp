@@ -1,0 +1,366 @@
+// PathMedium.cpp - takes paths through participating media to the next surface. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+// The radiance that arrives along a ray is [Chandrasekhar60, sect. 7]
+//
+//   L = T(d) L_surface + integral over t from 0 to d of T(t) (j + sigmaS integral of p L_i dw) dt
+//
+// with T(t) = exp(-sigmaT t). The emission j is integrated in closed form. Of the second integral,
+// light that comes straight from lights is sampled by SegmentLights.h. All other light is found by
+// a collision, which free flights find with RGB weights (FreeFlight.h) and which goes on by the
+// phase function; absorption is a weight, not an end. A light that a path meets straight after a
+// collision counts for nothing, as SegmentLights.h has sampled it; the sky is weighted against its
+// samples by the power heuristic, with the densities of place and direction of both.
+#include "osgRayTrace/integrators/path/PathMedium.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/integrators/shared/FirstHit.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/Panes.h"
+#include "osgRayTrace/integrators/shared/SegmentLights.h"
+#include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/media/Transmittance.h"
+#include "osgRayTrace/shading/SmoothLanes.h"
+
+#include <algorithm>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+float largestOf(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+class MediumWalk
+{
+public:
+    MediumWalk(Tile& tile, PathBlock& block, int number, bool last)
+        : _tile(tile),
+          _block(block),
+          _traced(*tile.context.traced),
+          _media(_traced.media()),
+          _number(number),
+          _last(last),
+          _collides(number + 1 < tile.context.options.maxBounces),
+          _open(block.active)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            _begin[i] = 0.0f;
+            _collisions[i] = 0;
+        }
+    }
+
+    LaneMask run();
+
+private:
+    enum class End
+    {
+        Surface, ///< the path has come to a surface, or leaves the scene
+        GoesOn,  ///< the path has a new ray, or goes on along its ray
+        Dies,
+    };
+
+    void findSegments(int step);
+    void addLight();
+    End travel(int i);
+    End collide(int i, float distance);
+    End meet(int i);
+    bool passBoundary(int i, End& end);
+    void spawn(int i, const RayBegin& begin, Vec3 direction);
+    void trace(LaneMask lanes);
+
+    /// Returns whether another body fills both sides of the surface of a body.
+    bool isDisplaced(int i, MediumId body) const
+    {
+        return _media.nests() && _media.at(bodiesBehind(_block.bodies[i], body, isFront(i))) ==
+                                     _media.at(_block.bodies[i]);
+    }
+
+    bool hasHit(int i) const { return (_surface.hits >> i) & 1u; }
+    bool isFront(int i) const { return (_surface.front >> i) & 1u; }
+    MediumId bodyAt(int i) const
+    {
+        return hasHit(i) ? _media.interiorOf(_surface.material[i]) : kOutside;
+    }
+
+    Tile& _tile;
+    PathBlock& _block;
+    const TracedScene& _traced;
+    const MediumTable& _media;
+    const int _number;
+    const bool _last;     ///< rays find emission alone
+    const bool _collides; ///< paths have an edge left for light behind a collision
+    LaneMask _open, _collided = 0;
+    FloatLanes _begin; ///< where on the ray the stretch begins
+    uint32_t _collisions[kLanes];
+    SurfaceLanes _surface;
+    MediumSegments _segments;
+};
+
+/// Finds the stretches of the open paths up to the next surface.
+void MediumWalk::findSegments(int step)
+{
+    surfacesOf(_traced.surfaces(), _block.rays, _open, _surface);
+    const RayBlock& ray = _block.rays.ray;
+    _segments.ray = &ray;
+    _segments.lanes = 0;
+    _segments.eachLight = step == 0;
+    _segments.withMis = _collides;
+    for (const int i : lanesIn(_open))
+    {
+        const MediumId body = bodyAt(i);
+        if (body != kOutside) _block.bodies[i] = bodiesBefore(_block.bodies[i], body, isFront(i));
+        const MediumId medium = _media.at(_block.bodies[i]);
+        _segments.media[i] = medium;
+        _segments.bodies[i] = _block.bodies[i];
+        _segments.numbers[i] =
+            MediumNumbers(_block.seed[i], _tile.context.pathKey.index, _number, step);
+        _segments.parts[i] = {};
+        if (_media[medium].isClear) continue;
+        const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
+        const float end = hasHit(i) ? ray.tFar[i] : kInfinity;
+        _segments.parts[i] = _media.clipped(medium, origin, directionOf(ray, i), _begin[i], end);
+        if (_media[medium].scatters && !_segments.parts[i].isEmpty() && !_last)
+            _segments.lanes |= 1u << i;
+    }
+}
+
+/// Adds the light that the stretches scatter and emit towards their rays.
+void MediumWalk::addLight()
+{
+    _segments.throughput = _block.throughput;
+    Vec3Lanes radiance;
+    for (const int i : lanesIn(_open))
+    {
+        const MediumRecord& medium = _media[_segments.media[i]];
+        const RayPart& part = _segments.parts[i];
+        Vec3 emitted(0.0f);
+        if (medium.emits && !part.isEmpty())
+            emitted = laneOf(_block.throughput, i) *
+                      emittedAlong(medium.emission, medium.sigmaT, part.end - part.begin);
+        setLane(radiance, i, emitted);
+    }
+    addSegmentLights(_tile.context, _tile.deltaLights, _segments, _tile.counts, radiance);
+    for (const int i : lanesIn(_open))
+        _tile.sums.add(_block.flagsOf(i), laneOf(radiance, i));
+}
+
+/// Takes a path along its stretch.
+MediumWalk::End MediumWalk::travel(int i)
+{
+    const RayPart& part = _segments.parts[i];
+    if (part.isEmpty()) return meet(i);
+    const MediumRecord& medium = _media[_segments.media[i]];
+    const float length = part.end - part.begin;
+    const Vec3 throughput = laneOf(_block.throughput, i);
+    if (!medium.scatters || !_collides)
+    {
+        setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
+        return meet(i);
+    }
+    const FreeFlight flight = sampleFlight(medium.sigmaT, length, channelPmf(throughput),
+                                           _segments.numbers[i].at(MediumFlight).x);
+    setLane(_block.throughput, i, throughput * flight.weight);
+    return flight.collides ? collide(i, part.begin + flight.distance) : meet(i);
+}
+
+/// Scatters a path at a point of its ray, unless roulette ends it.
+MediumWalk::End MediumWalk::collide(int i, float distance)
+{
+    const MediumRecord& medium = _media[_segments.media[i]];
+    const MediumNumbers& numbers = _segments.numbers[i];
+    Vec3 throughput = laneOf(_block.throughput, i) * medium.sigmaS;
+    const float found = collisionProbability(_tile.context, _segments, i);
+    ++_tile.counts.collisions;
+    _collided |= 1u << i;
+    if (++_collisions[i] > kMostCollisions)
+    {
+        ++_tile.counts.cutWalks;
+        return End::Dies;
+    }
+    if (static_cast<uint32_t>(_number) + _collisions[i] >= kRouletteBounce)
+    {
+        const float wanted =
+            largestOf(throughput) * _block.etaScale[i] * (1.0f / kRouletteThroughput);
+        const float survival = std::min(wanted, 1.0f);
+        if (!(numbers.at(MediumFlight).y < survival)) return End::Dies;
+        throughput /= survival;
+    }
+    if (throughput == Vec3(0.0f)) return End::Dies;
+    setLane(_block.throughput, i, throughput);
+    const RayBlock& ray = _block.rays.ray;
+    const Vec3 before = directionOf(ray, i);
+    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
+    const Vec2 u = numbers.at(MediumPhase);
+    const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
+    // The density with which collisions find the sky, over that of SegmentLights' choice of place.
+    _block.pdfW[i] = found * evalPhase(medium.anisotropy, glm::dot(before, after));
+    _block.flags[i] = _block.flagsOf(i).collided().word();
+    spawn(i, {point, 0.0f}, after);
+    return End::GoesOn;
+}
+
+/// Takes a path through the surface at the end of its ray, if the surface bends no light or belongs
+/// to the walk.
+MediumWalk::End MediumWalk::meet(int i)
+{
+    if (!hasHit(i)) return End::Surface;
+    const uint32_t material = _surface.material[i];
+    const MediumId body = _media.interiorOf(material);
+    const bool pane = _traced.materials()[material].pane;
+    if (pane && goesThroughPane(_tile.context, _block.rays, _surface, i, _block.throughput))
+        ++_tile.counts.secondaryRays;
+    else if (body != kOutside && (_media.isInterface(material) || isDisplaced(i, body)))
+        _block.bodies[i] = bodiesBehind(_block.bodies[i], body, isFront(i));
+    else
+    {
+        End end = End::Surface;
+        if (!passBoundary(i, end)) return End::Surface;
+        return end;
+    }
+    _begin[i] = _block.rays.ray.tFar[i];
+    goOnBehindHit(_block.rays.ray, i, kInfinity);
+    return End::GoesOn;
+}
+
+/// Reflects or refracts a path at the inner side of a smooth body that scatters: until it comes out
+/// of the body, all of that is one walk, however often the surface sends the path back. Returns
+/// false if the surface is not of this kind.
+bool MediumWalk::passBoundary(int i, End& end)
+{
+    const MediumRecord& medium = _media[_segments.media[i]];
+    if (!_collides || isFront(i) || !medium.scatters || bodyAt(i) != _segments.media[i])
+        return false;
+    const uint32_t material = _surface.material[i];
+    const MaterialRecord& record = _traced.materials()[material];
+    if (record.normalMap || record.emits) return false;
+    Bsdf bsdf = record.constant
+                    ? record.back
+                    : _traced.materials().bsdf(
+                          material, materialPoint(_tile.context, _block.rays, _surface, i));
+    setRelativeIor(_media, _block.bodies[i], bodyAt(i), false, bsdf);
+    if (!isSmoothInterface(bsdf) || bsdf.needsAxes()) return false;
+    const ShadingFrame frame(facingNormal(_block.rays, _surface, i));
+    const Vec3 wo = frame.toLocal(-directionOf(_block.rays.ray, i));
+    const Vec2 u = _segments.numbers[i].at(MediumBoundary);
+    const std::optional<BsdfSample> sample = sampleBsdf(bsdf, wo, u.x, 0.5f, 0.5f);
+    end = End::Dies;
+    if (!sample) return true;
+    const Vec3 direction = frame.toWorld(sample->wi);
+    if (isAboveFacet(_surface, i, direction) == sample->transmitted) return true;
+    if (++_collisions[i] > kMostCollisions)
+    {
+        ++_tile.counts.cutWalks;
+        return true;
+    }
+    setLane(_block.throughput, i, laneOf(_block.throughput, i) * sample->weight);
+    if (sample->transmitted)
+    {
+        const float eta = bsdf.transmittedEta();
+        _block.etaScale[i] *= eta * eta;
+        _block.bodies[i] = _block.bodies[i].left(bodyAt(i));
+    }
+    _block.pdfW[i] = kInfinity;
+    _block.flags[i] = PathFlags::afterSurface(_block.flags[i], 0u, 0u, 0u, ~0u);
+    spawn(i, leaveFacet(_surface, i, direction), direction);
+    end = End::GoesOn;
+    return true;
+}
+
+void MediumWalk::spawn(int i, const RayBegin& begin, Vec3 direction)
+{
+    setRay(_block.rays.ray, i, begin, direction, kInfinity);
+    _begin[i] = begin.tNear;
+}
+
+/// Finds the closest hits of some of the rays, and leaves the others theirs.
+void MediumWalk::trace(LaneMask lanes)
+{
+    if (!lanes) return;
+    RayHitBlock found;
+    found.ray = _block.rays.ray;
+    _traced.intersector().closestHits(found, lanes, Coherence::Incoherent);
+    const auto rays = static_cast<uint64_t>(countLanes(lanes));
+    _tile.counts.secondaryRays += rays;
+    countRays(_tile, _block, lanes);
+    RayHitBlock& to = _block.rays;
+    for (const int i : lanesIn(lanes))
+    {
+        to.ray.tFar[i] = found.ray.tFar[i];
+        to.u[i] = found.u[i];
+        to.v[i] = found.v[i];
+        to.primitive[i] = found.primitive[i];
+        to.geometry[i] = found.geometry[i];
+        to.instance[i] = found.instance[i];
+    }
+}
+
+LaneMask MediumWalk::run()
+{
+    for (int step = 0; _open; ++step)
+    {
+        findSegments(step);
+        addLight();
+        LaneMask next = 0;
+        for (const int i : lanesIn(_open))
+        {
+            const End end = travel(i);
+            next |= static_cast<LaneMask>(end == End::GoesOn) << i;
+            if (end == End::Dies) _block.active &= ~(1u << i);
+        }
+        trace(next);
+        _open = next;
+    }
+    return _collided;
+}
+
+} // namespace
+
+LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last)
+{
+    const LaneMask before = block.active;
+    const LaneMask collided = MediumWalk(tile, block, number, last).run();
+    for (const int i : lanesIn(number == 0 ? before : 0))
+    {
+        // The background shows through what is left of its light, see addEnvironment.
+        const Vec3 left = laneOf(block.throughput, i);
+        const bool through = ((block.active & ~collided) >> i) & 1u;
+        tile.sums.a[block.flagsOf(i).pixel()] =
+            through ? std::clamp(1.0f - (left.x + left.y + left.z) / 3.0f, 0.0f, 1.0f) : 1.0f;
+    }
+    return collided;
+}
+
+void enterBodies(const Tile& tile, PathBlock& block, const Bounce& bounce)
+{
+    const MediumTable& media = tile.context.traced->media();
+    for (const int i : lanesIn(block.active & bounce.surface.hits))
+    {
+        const MediumId body = media.interiorOf(bounce.surface.material[i]);
+        if (body == kOutside) continue;
+        if (isAboveFacet(bounce.surface, i, directionOf(block.rays.ray, i))) continue;
+        block.bodies[i] = bodiesBehind(block.bodies[i], body, (bounce.surface.front >> i) & 1u);
+    }
+}
+
+void dimSamples(const Tile& tile, const PathBlock& block, const Bounce& bounce, LaneMask visible,
+                LightLanes& samples)
+{
+    const MediumTable& media = tile.context.traced->media();
+    MediumLanes bodies = block.bodies;
+    for (const int i : lanesIn(visible))
+    {
+        const MediumId body = media.interiorOf(bounce.surface.material[i]);
+        if (body == kOutside || isAboveFacet(bounce.surface, i, laneOf(samples.wi, i))) continue;
+        bodies[i] = bodiesBehind(bodies[i], body, (bounce.surface.front >> i) & 1u);
+    }
+    dimByMedia(tile.context, bodies, visible, samples);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,59 @@
+// MediumNumbers.h - the random numbers of a stretch of a path within a medium. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/sampling/Sampler.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Names the use of each two-dimensional point of a stretch.
+enum MediumDimension : uint32_t
+{
+    MediumFlight = 0,     ///< x: free flight, y: Russian roulette
+    MediumPhase = 1,      ///< direction after the collision
+    MediumBoundary = 2,   ///< direction at a smooth boundary
+    MediumChoice = 3,     ///< x: which light, y: which point on the ray
+    MediumLightPoint = 4, ///< point on the light
+    MediumSkyPoint = 5,   ///< x: which point on the ray, y: which stratum of the sky
+    MediumSky = 6,        ///< direction of the sky
+    MediumDelta = 7,      ///< x: which point on the ray; 7 + 2 k of light k
+    MediumDeltaPoint = 8, ///< point on the light; 8 + 2 k of light k
+};
+
+/// The numbers of one stretch. The first stretch of each ray takes points of Sobol's sequence over
+/// the passes; the walk that may follow is too long for a sequence and takes independent numbers.
+class MediumNumbers
+{
+public:
+    MediumNumbers() = default;
+    /// number: of the path's ray; step: of the stretch along this ray and its collisions.
+    MediumNumbers(uint32_t pathSeed, uint32_t pass, int number, int step)
+        : _seed(pathSeed),
+          _pass(pass),
+          _first(hash(kMedium + static_cast<uint32_t>(number), static_cast<uint32_t>(step))),
+          _sequence(step == 0)
+    {
+    }
+
+    Vec2 at(uint32_t dimension) const
+    {
+        const uint32_t seed = dimensionSeed(_seed, _first + dimension);
+        Vec2 point;
+        if (_sequence)
+        {
+            sobol2(_pass, seed, point.x, point.y);
+            return point;
+        }
+        const uint32_t key = hash(seed, _pass);
+        return {unitFloat(key), unitFloat(hash(key + 0x9e3779b9u))};
+    }
+
+private:
+    static constexpr uint32_t kMedium = 0x6d656469u; ///< tells these dimensions from all others
+    uint32_t _seed = 0, _pass = 0, _first = 0;
+    bool _sequence = true;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,106 @@
+// MediumRays.cpp - follows rays through boundaries of media. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/MediumRays.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/media/Transmittance.h"
+
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The number of surfaces that a ray is followed through; it sees nothing behind the last one.
+constexpr int kMostCrossings = 256;
+
+/// Returns the extinction of the way of lane i from begin to end.
+Vec3 leftAlong(const MediumTable& media, MediumStack bodies, const RayBlock& ray, int i,
+               float begin, float end)
+{
+    const MediumId medium = media.at(bodies);
+    const MediumRecord& record = media[medium];
+    if (record.sigmaT == Vec3(0.0f)) return Vec3(1.0f);
+    const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
+    const RayPart part = media.clipped(medium, origin, directionOf(ray, i), begin, end);
+    return part.isEmpty() ? Vec3(1.0f) : transmittance(record.sigmaT, part.end - part.begin);
+}
+
+void dim(LightLanes& samples, int i, Vec3 share)
+{
+    for (int c = 0; c < 3; ++c)
+        samples.radiance[c][i] *= share[c];
+    setLane(samples.tint, i,
+            ((samples.tinted >> i) & 1u ? laneOf(samples.tint, i) : Vec3(1.0f)) * share);
+    samples.tinted |= 1u << i;
+}
+
+} // namespace
+
+MediumStack bodiesAround(const PassContext& context, Vec3 point)
+{
+    const TracedScene& traced = *context.traced;
+    // A direction that no model is built along.
+    const Vec3 direction = glm::normalize(Vec3(0.3141f, 0.2718f, 0.9097f));
+    RayHitBlock rays;
+    setRay(rays.ray, 0, plainOf(point), plainOf(direction), 0.0f, kInfinity);
+    HitRule everything;
+    everything.solid = true;
+    MediumStack begun, inside;
+    for (int k = 0; k < kMostCrossings; ++k)
+    {
+        traced.intersector().closestHits(rays, 1u, Coherence::Incoherent, everything);
+        SurfaceLanes surface;
+        surfacesOf(traced.surfaces(), rays, 1u, surface);
+        if (!surface.hits) break;
+        const MediumId body = traced.media().interiorOf(surface.material[0]);
+        goOnBehindHit(rays.ray, 0, kInfinity);
+        if (body == kOutside) continue;
+        const bool front = surface.front & 1u;
+        if (!front && !inside.has(body)) begun = begun.begunIn(body);
+        inside = bodiesBehind(inside, body, front);
+    }
+    return begun;
+}
+
+void dimByMedia(const PassContext& context, const MediumLanes& bodies, LaneMask visible,
+                LightLanes& samples)
+{
+    const TracedScene& traced = *context.traced;
+    const MediumTable& media = traced.media();
+    samples.tinted &= context.traced->traits().panes ? kAllLanes : 0u;
+    if (!media.hasInterfaces())
+    {
+        for (const int i : lanesIn(visible))
+            dim(samples, i,
+                leftAlong(media, bodies[i], samples.shadow, i, samples.shadow.tNear[i],
+                          samples.shadow.tFar[i]));
+        return;
+    }
+    RayHitBlock rays;
+    rays.ray = samples.shadow;
+    MediumLanes within = bodies;
+    FloatLanes begin = samples.shadow.tNear;
+    LaneMask open = visible;
+    for (int k = 0; k < kMostCrossings && open; ++k)
+    {
+        traced.intersector().closestHits(rays, open, Coherence::Incoherent);
+        SurfaceLanes surface;
+        surfacesOf(traced.surfaces(), rays, open, surface);
+        for (const int i : lanesIn(open))
+        {
+            const bool hit = (surface.hits >> i) & 1u, front = (surface.front >> i) & 1u;
+            const MediumId body = hit ? media.interiorOf(surface.material[i]) : kOutside;
+            if (body != kOutside) within[i] = bodiesBefore(within[i], body, front);
+            dim(samples, i, leftAlong(media, within[i], rays.ray, i, begin[i], rays.ray.tFar[i]));
+            if (body != kOutside) within[i] = bodiesBehind(within[i], body, front);
+            begin[i] = rays.ray.tFar[i];
+            goOnBehindHit(rays.ray, i, samples.shadow.tFar[i]);
+            if (!hit || !(rays.ray.tNear[i] < rays.ray.tFar[i])) open &= ~(1u << i);
+        }
+    }
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,375 @@
+// SegmentLights.cpp - samples the lights of stretches within media. Layer: integrators.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/integrators/shared/SegmentLights.h"
+
+#include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/shared/ShadowLanes.h"
+#include "osgRayTrace/integrators/shared/TreeLights.h"
+#include "osgRayTrace/media/Equiangular.h"
+#include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/media/Transmittance.h"
+#include "osgRayTrace/shading/SoftLight.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The share of choices by LightTree that is even among all its emitters: one that does not shine
+/// on the point for which the tree is asked may shine on others of the stretch.
+constexpr float kEvenShare = 0.25f;
+
+/// A point of a stretch with its weight: transmittance over density [length].
+struct Place
+{
+    Vec3 point;
+    Vec3 weight{0.0f}; ///< 0: there is none
+};
+
+class Segments
+{
+public:
+    Segments(const PassContext& context, const MediumSegments& segments, TileCounts& counts,
+             Vec3Lanes& radiance)
+        : _context(context),
+          _table(context.traced->lights()),
+          _segments(segments),
+          _counts(counts),
+          _radiance(radiance)
+    {
+    }
+
+    void addEnvironment();
+    void addDelta(uint32_t light, uint32_t slot, float weight, LaneMask lanes);
+    void addOneDelta(const SampledLights& lights);
+    void addArea();
+    void addTree();
+
+private:
+    const MediumRecord& mediumOf(int i) const
+    {
+        return _context.traced->media()[_segments.media[i]];
+    }
+    Vec2 numbers(int i, uint32_t dimension) const { return _segments.numbers[i].at(dimension); }
+    Vec3 origin(int i) const
+    {
+        const RayBlock& ray = *_segments.ray;
+        return Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]);
+    }
+    Vec3 direction(int i) const { return directionOf(*_segments.ray, i); }
+
+    Place near(int i, Vec3 light, float u, float size = 0.0f) const;
+    bool setRectangle(int i, const RectangleLight& rectangle, float along, Vec2 on, bool twoSided,
+                      float offset, float pmf, Vec3 radiance);
+    Place byFlight(int i, float u) const;
+    bool setTowards(int i, const Place& place, Vec3 light, Vec3 normal, bool twoSided, float area,
+                    float offset, float pmf, Vec3 radiance);
+    bool setDelta(int i, const Light& light, float weight, float along, Vec2 onLight);
+    void begin() { _samples.lit = _samples.tinted = 0; }
+    void finish(LaneMask visible);
+
+    const PassContext& _context;
+    const LightTable& _table;
+    const MediumSegments& _segments;
+    TileCounts& _counts;
+    Vec3Lanes& _radiance;
+    LightLanes _samples;
+    Place _places[kLanes];
+};
+
+/// Returns a point that is spread evenly by angle around a light, or no more densely than around a
+/// light that is size away from the ray.
+Place Segments::near(int i, Vec3 light, float u, float size) const
+{
+    const RayPart& part = _segments.parts[i];
+    const Equiangular stretch(origin(i), direction(i), part.begin, part.end, light, size);
+    const EquiangularSample sample = stretch.sample(u);
+    if (!(sample.pdf > 0.0f) || !(sample.pdf < kInfinity)) return {};
+    const Vec3 left = transmittance(mediumOf(i).sigmaT, sample.t - part.begin);
+    return {origin(i) + direction(i) * sample.t, left / sample.pdf};
+}
+
+/// Returns a point at which light that travels against the ray would collide.
+Place Segments::byFlight(int i, float u) const
+{
+    const RayPart& part = _segments.parts[i];
+    const Vec3 pmf = channelPmf(laneOf(_segments.throughput, i));
+    const FreeFlight flight = sampleFlightWithin(mediumOf(i).sigmaT, part.end - part.begin, pmf, u);
+    if (!flight.collides) return {};
+    return {origin(i) + direction(i) * (part.begin + flight.distance), flight.weight};
+}
+
+/// Adds the light of the samples that the lanes see.
+void Segments::finish(LaneMask visible)
+{
+    if (!visible) return;
+    dimByMedia(_context, _segments.bodies, visible, _samples);
+    for (const int i : lanesIn(visible))
+    {
+        const MediumRecord& medium = mediumOf(i);
+        const float phase =
+            evalPhase(medium.anisotropy, glm::dot(direction(i), laneOf(_samples.wi, i)));
+        const Vec3 light(_samples.radiance[0][i], _samples.radiance[1][i], _samples.radiance[2][i]);
+        const Vec3 sum = laneOf(_segments.throughput, i) * medium.sigmaS * _places[i].weight *
+                         light * (phase * _samples.weight[i]);
+        setLane(_radiance, i, laneOf(_radiance, i) + sum);
+    }
+}
+
+/// Sets the sample of lane i on a point of an area light.
+bool Segments::setTowards(int i, const Place& place, Vec3 light, Vec3 normal, bool twoSided,
+                          float area, float offset, float pmf, Vec3 radiance)
+{
+    const Vec3 way = light - place.point;
+    const float distance = glm::length(way);
+    if (!(distance > 0.0f) || place.weight == Vec3(0.0f)) return false;
+    const Vec3 wi = way / distance;
+    const float cosine = -glm::dot(wi, normal);
+    const float cosThetaL = twoSided ? std::fabs(cosine) : cosine;
+    if (!(cosThetaL > 0.0f)) return false;
+    const float weight = cosThetaL * area / (distance * distance * pmf);
+    if (!(weight < 1e30f)) return false;
+    _places[i] = place;
+    setSample(_samples, i, wi, radiance, weight);
+    setRay(_samples.shadow, i, plainOf(place.point), plainOf(wi), 0.0f,
+           std::max(0.0f, distance - offset / cosThetaL));
+    return true;
+}
+
+/// Sets the sample of lane i on a rectangle, by solid angle from the place that is found first.
+/// Rays that meet the rectangle would otherwise have a sum of 1 / r over its points, whose variance
+/// has no bound.
+bool Segments::setRectangle(int i, const RectangleLight& rectangle, float along, Vec2 on,
+                            bool twoSided, float offset, float pmf, Vec3 radiance)
+{
+    const auto vec = [](PlainVec3 v) { return Vec3(v.x, v.y, v.z); };
+    const Vec3 corner = vec(rectangle.corner), normal = vec(rectangle.normal);
+    const Vec3 u = vec(rectangle.axisU), v = vec(rectangle.axisV);
+    const Vec3 centre = corner + 0.5f * (u * rectangle.width + v * rectangle.height);
+    const float area = rectangle.width * rectangle.height;
+    const Place place = near(i, centre, along, 0.5f * std::sqrt(area));
+    const SphericalRectangle seen = seenFrom(rectangle, plainOf(place.point));
+    float x = seen.x0 + on.x * rectangle.width, y = seen.y0 + on.y * rectangle.height;
+    const bool wide = isWide(rectangle, seen) != 0;
+    if (wide) squareToSphericalRectangle(seen, on.x, on.y, x, y);
+    const Vec3 light = corner + u * (x - seen.x0) + v * (y - seen.y0);
+    if (!setTowards(i, place, light, normal, twoSided, area, offset, pmf, radiance)) return false;
+    if (!wide) return true;
+    _samples.weight[i] = seen.solidAngle / pmf;
+    return true;
+}
+
+/// Sets the sample of lane i of a directional, point or spot light.
+bool Segments::setDelta(int i, const Light& light, float weight, float along, Vec2 onLight)
+{
+    const bool fades =
+        light.kind == LightKind::Point && (light.attenuationQuadratic > 0.0f || light.range > 0.0f);
+    const Place place = fades ? near(i, light.position, along) : byFlight(i, along);
+    if (place.weight == Vec3(0.0f)) return false;
+    const SoftLightSample sample =
+        sampleSoft(light, place.point, isSoft(light) ? onLight : Vec2(0.0f));
+    if (!(sample.attenuation > 0.0f)) return false;
+    _places[i] = place;
+    setSample(_samples, i, sample.wi, light.diffuse * (kPi * sample.attenuation),
+              sample.weight * weight);
+    setRay(_samples.shadow, i, plainOf(place.point), plainOf(sample.wi), 0.0f, sample.distance);
+    return true;
+}
+
+void Segments::addDelta(uint32_t index, uint32_t slot, float weight, LaneMask lanes)
+{
+    begin();
+    const Light& light = (*_context.lights)[index];
+    for (const int i : lanesIn(lanes))
+    {
+        const bool lit = setDelta(i, light, weight, numbers(i, MediumDelta + 2 * slot).x,
+                                  numbers(i, MediumDeltaPoint + 2 * slot));
+        _samples.lit |= static_cast<LaneMask>(lit) << i;
+    }
+    finish(visibleLanes(_context, light, _samples, _counts));
+}
+
+/// Adds one of the delta lights, which stands for all of them.
+void Segments::addOneDelta(const SampledLights& lights)
+{
+    const auto count = static_cast<float>(lights.size());
+    uint32_t chosen[kLanes];
+    LaneMask open = _segments.lanes;
+    for (const int i : lanesIn(open))
+        chosen[i] = std::min(static_cast<uint32_t>(numbers(i, MediumDelta).y * count),
+                             static_cast<uint32_t>(lights.size() - 1));
+    while (open)
+    {
+        const uint32_t slot = chosen[firstLane(open)];
+        LaneMask same = 0;
+        for (const int i : lanesIn(open))
+            same |= static_cast<LaneMask>(chosen[i] == slot) << i;
+        addDelta(lights[slot].light, 0, lights[slot].weight * count, same);
+        open &= ~same;
+    }
+}
+
+/// Adds one point of one area light.
+void Segments::addArea()
+{
+    begin();
+    for (const int i : lanesIn(_segments.lanes))
+    {
+        const Vec2 choice = numbers(i, MediumChoice), on = numbers(i, MediumLightPoint);
+        const LightTable::Choice chosen = _table.chooseAreaLight(choice.x);
+        if (chosen.light == kInvalid || !(chosen.pmf > 0.0f)) continue;
+        const Light& light = (*_context.lights)[chosen.light];
+        if (const RectangleLight* rectangle = _table.rectangle(chosen.light))
+        {
+            const bool lit =
+                setRectangle(i, *rectangle, choice.y, on, light.twoSided,
+                             _table.pointOffset(chosen.light), chosen.pmf, light.radiance);
+            _samples.lit |= static_cast<LaneMask>(lit) << i;
+            continue;
+        }
+        const std::optional<LightPoint> point = _table.samplePoint(chosen.light, on.x, on.y);
+        if (!point) continue;
+        Vec3 radiance = light.radiance;
+        if (light.kind == LightKind::Mesh)
+        {
+            MaterialPoint at;
+            at.uv = point->uv;
+            const Scene& scene = _context.traced->scene();
+            radiance =
+                _context.traced->materials().emission(scene.instances[light.instance].material, at);
+        }
+        const bool lit = setTowards(i, near(i, point->position, choice.y), point->position,
+                                    point->normal, light.twoSided || light.kind == LightKind::Mesh,
+                                    _table.area(chosen.light), point->offset, chosen.pmf, radiance);
+        _samples.lit |= static_cast<LaneMask>(lit) << i;
+    }
+    finish(visibleLanes(_context, _samples, _counts));
+}
+
+/// Adds one emitter of the LightTree, chosen for some point of each stretch.
+void Segments::addTree()
+{
+    const LightTree& tree = *_table.tree();
+    begin();
+    LaneMask unshadowed = 0;
+    for (const int i : lanesIn(_segments.lanes))
+    {
+        const Vec2 choice = numbers(i, MediumChoice), on = numbers(i, MediumLightPoint);
+        const Place pivot = byFlight(i, numbers(i, MediumDelta).x);
+        if (pivot.weight == Vec3(0.0f)) continue;
+        const auto count = static_cast<float>(tree.size());
+        const bool even = choice.x < kEvenShare;
+        const float u =
+            even ? choice.x / kEvenShare : (choice.x - kEvenShare) / (1.0f - kEvenShare);
+        const uint32_t number =
+            even
+                ? std::min(static_cast<uint32_t>(u * count), static_cast<uint32_t>(tree.size() - 1))
+                : tree.choose(pivot.point, Vec3(0.0f), std::min(u, kOneMinusEpsilon)).emitter;
+        const float pmf =
+            kEvenShare / count + (1.0f - kEvenShare) * tree.pmf(pivot.point, Vec3(0.0f), number);
+        const LightEmitter& emitter = tree.emitter(number);
+        const Light& light = (*_context.lights)[emitter.light];
+        bool lit = false;
+        if (emitter.isPoint())
+        {
+            lit = setDelta(i, light, 1.0f / pmf, choice.y, on);
+            unshadowed |= static_cast<LaneMask>(lit && !light.castsShadows) << i;
+        }
+        else if (emitter.flags & kRectangle)
+        {
+            const EmitterPoint middle = emitterPoint(_context, emitter, 0.5f, 0.5f);
+            lit =
+                setRectangle(i, rectangleLight(emitter), choice.y, on,
+                             (emitter.flags & kTwoSided) != 0, middle.offset, pmf, middle.radiance);
+        }
+        else
+        {
+            const EmitterPoint point = emitterPoint(_context, emitter, on.x, on.y);
+            const bool twoSided = (emitter.flags & (kTwoSided | kTriangle)) != 0;
+            lit = setTowards(i, near(i, point.position, choice.y), point.position, point.normal,
+                             twoSided, emitter.area, point.offset, pmf, point.radiance);
+        }
+        _samples.lit |= static_cast<LaneMask>(lit) << i;
+    }
+    _samples.lit &= ~unshadowed;
+    finish(visibleLanes(_context, _samples, _counts) | unshadowed);
+}
+
+void Segments::addEnvironment()
+{
+    const PlacedEnvironment& sky = *_table.shiningEnvironment();
+    const RenderOptions& options = _context.options;
+    const bool uniform = options.environmentSampling == EnvironmentSampling::Uniform;
+    const bool mis = _segments.withMis && !_context.strata;
+    if (mis && !uniform && sky.isEven()) return; // collisions find all of its light
+    begin();
+    for (const int i : lanesIn(_segments.lanes))
+    {
+        const Vec2 along = numbers(i, MediumSkyPoint), towards = numbers(i, MediumSky);
+        const Place place = byFlight(i, along.x);
+        if (place.weight == Vec3(0.0f)) continue;
+        SkySample sample;
+        if (_context.strata)
+        {
+            const auto count = static_cast<float>(_context.strata->size());
+            const auto k = static_cast<std::size_t>(along.y * count);
+            const EnvironmentStratum& stratum =
+                (*_context.strata)[std::min(k, _context.strata->size() - 1)];
+            sample = {stratum.direction, stratum.integral, 1.0f / count};
+        }
+        else
+            sample = sampleSky(_context, sky, towards, !mis);
+        if (!(sample.pdfW > 0.0f)) continue;
+        float weight = 1.0f / sample.pdfW;
+        if (mis)
+        {
+            const float phase =
+                evalPhase(mediumOf(i).anisotropy, glm::dot(direction(i), sample.direction));
+            const float ratio = phase * collisionProbability(_context, _segments, i) / sample.pdfW;
+            weight /= 1.0f + ratio * ratio; // the power heuristic
+        }
+        _places[i] = place;
+        setSample(_samples, i, sample.direction, sample.radiance, weight);
+        setRay(_samples.shadow, i, plainOf(place.point), plainOf(sample.direction), 0.0f,
+               kInfinity);
+        _samples.lit |= 1u << i;
+    }
+    finish(visibleLanes(_context, _samples, _counts));
+}
+
+} // namespace
+
+float collisionProbability(const PassContext& context, const MediumSegments& segments, int i)
+{
+    const RayPart& part = segments.parts[i];
+    return collisionProbability(context.traced->media()[segments.media[i]].sigmaT,
+                                part.end - part.begin, channelPmf(laneOf(segments.throughput, i)));
+}
+
+void addSegmentLights(const PassContext& context, const SampledLights& deltaLights,
+                      const MediumSegments& segments, TileCounts& counts, Vec3Lanes& radiance)
+{
+    if (!segments.lanes) return;
+    const LightTable& table = context.traced->lights();
+    Segments at(context, segments, counts, radiance);
+    if (table.shiningEnvironment()) at.addEnvironment();
+    if (samplesTree(context))
+        at.addTree();
+    else if (!table.areaLights().empty())
+        at.addArea();
+    if (deltaLights.empty()) return;
+    if (!segments.eachLight)
+    {
+        at.addOneDelta(deltaLights);
+        return;
+    }
+    for (uint32_t k = 0; k < deltaLights.size(); ++k)
+        at.addDelta(deltaLights[k].light, k, deltaLights[k].weight, segments.lanes);
+}
+
+} // namespace osgRayTrace::engine

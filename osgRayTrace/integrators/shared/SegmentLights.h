@@ -1,0 +1,44 @@
+// SegmentLights.h - light that a medium scatters towards a ray, from all lights. Layer:
+// integrators.
+// SPDX-License-Identifier: MIT
+//
+// Single scattering along a stretch of a ray is
+//
+//   L = integral over t of T(t) sigmaS p(w, wi) integral over lights of L_i V T_shadow dw_i dt
+//
+// It is estimated with one point of the stretch for each light. Lights at a place take the point by
+// Equiangular, so that their falloff drops out; lights that are far away, or that do not fade, take
+// it as a free flight would collide. What collides on a walk therefore carries indirect light only.
+#pragma once
+
+#include "osgRayTrace/integrators/shared/MediumNumbers.h"
+#include "osgRayTrace/integrators/shared/MediumRays.h"
+#include "osgRayTrace/integrators/shared/SampledLights.h"
+#include "osgRayTrace/integrators/shared/TileResult.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Stretches of the rays of a block within media that scatter.
+struct MediumSegments
+{
+    const RayBlock* ray = nullptr;
+    LaneMask lanes = 0;
+    RayPart parts[kLanes];
+    MediumId media[kLanes];
+    MediumLanes bodies;   ///< of the stretches
+    Vec3Lanes throughput; ///< of a ray at the begin of its stretch
+    MediumNumbers numbers[kLanes];
+    bool eachLight = true; ///< false: one of the delta lights stands for all
+    bool withMis = true;   ///< the sky is also found by collisions, and weighted against them
+};
+
+/// Returns the probability with which a free flight through the stretch of lane i collides.
+float collisionProbability(const PassContext& context, const MediumSegments& segments, int i);
+
+/// Adds to radiance what the stretches scatter of the light of all lights, times throughput. Counts
+/// shadow rays.
+void addSegmentLights(const PassContext& context, const SampledLights& deltaLights,
+                      const MediumSegments& segments, TileCounts& counts, Vec3Lanes& radiance);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,88 @@
+// MediumTable.h - the media of a scene in engine units, and which bodies they fill. Layer: media.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/base/Assert.h"
+#include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/scene/Scene.h"
+
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Holds the constants of a medium [1/engine unit].
+struct MediumRecord
+{
+    Vec3 sigmaT{0.0f};   ///< extinction: absorption and scattering
+    Vec3 sigmaS{0.0f};   ///< scattering
+    Vec3 emission{0.0f}; ///< radiance per length
+    float anisotropy = 0.0f;
+    float ior = 1.0f; ///< index of refraction of the body
+    int priority = 0;
+    bool scatters = false, emits = false;
+    bool isClear = true; ///< true: light passes as if nothing were there
+};
+
+/// A part of a ray.
+struct RayPart
+{
+    float begin = 0.0f, end = 0.0f;
+    bool isEmpty() const { return !(end > begin); }
+};
+
+/// Holds the media of a scene. Scenes without SceneTraits::media have an empty table.
+class MediumTable
+{
+public:
+    MediumTable() = default;
+
+    /// low, high: corners of a box around all that is traced [engine space].
+    MediumTable(const Scene& scene, Vec3 low, Vec3 high);
+
+    const MediumRecord& operator[](MediumId medium) const
+    {
+        OSGRAYTRACE_ASSERT(medium < _records.size());
+        return _records[medium];
+    }
+
+    /// Returns the medium within the bodies of a material; kOutside if its surfaces enclose none
+    /// that light can enter.
+    MediumId interiorOf(uint32_t material) const { return _interiors[material]; }
+
+    /// Returns whether the material is nothing but the boundary of its medium.
+    bool isInterface(uint32_t material) const { return _interfaces[material]; }
+
+    /// Returns whether some material is such a boundary.
+    bool hasInterfaces() const { return _hasInterfaces; }
+
+    /// Returns whether bodies have priorities, so that the surface of a body that another one
+    /// displaces is not there, and surfaces between two bodies bend light by the ratio of their
+    /// indices.
+    bool nests() const { return _nests; }
+
+    /// Returns the medium at a point in these bodies: that of the highest priority, and of those
+    /// the one entered last. What is around bodies is displaced by any of them.
+    MediumId at(MediumStack bodies) const
+    {
+        MediumId top = kOutside;
+        for (int k = 0; k < MediumStack::kSize && bodies[k] != kOutside; ++k)
+            if (top == kOutside || _records[bodies[k]].priority >= _records[top].priority)
+                top = bodies[k];
+        return top;
+    }
+
+    /// Returns the part of a ray from begin to end on which the medium has an effect. The medium
+    /// around all bodies ends at its sphere, and so does that of a body that is open.
+    RayPart clipped(MediumId medium, Vec3 origin, Vec3 direction, float begin, float end) const;
+
+private:
+    std::vector<MediumRecord> _records; ///< 0: what is around all bodies
+    std::vector<MediumId> _interiors;   ///< by material
+    std::vector<bool> _interfaces;      ///< by material
+    bool _hasInterfaces = false, _nests = false;
+    Vec3 _centre{0.0f};
+    float _radius = 0.0f;
+};
+
+} // namespace osgRayTrace::engine

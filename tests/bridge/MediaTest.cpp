@@ -1,0 +1,193 @@
+// MediaTest.cpp - Medium, MediumVolume, interiors and fog as a medium. Layer: tests.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/changes/GraphHash.h"
+#include "osgRayTrace/scene/FogMedium.h"
+#include "osgRayTrace/scene/SceneTraits.h"
+
+#include "tests/Catch.h"
+#include "tests/bridge/Graphs.h"
+#include "tests/bridge/LiveGraph.h"
+
+#include <osgRayTrace/MediumVolume>
+#include <osgRayTrace/PhysicalMaterial>
+
+#include <osg/Fog>
+
+#include <cmath>
+#include <limits>
+
+using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::test;
+
+namespace
+{
+
+using ApiMedium = osgRayTrace::Medium;
+
+osg::ref_ptr<ApiMedium> hazeMedium()
+{
+    const osg::ref_ptr<ApiMedium> medium = new ApiMedium;
+    medium->setAbsorption({0.1f, 0.2f, 0.3f});
+    medium->setScattering({1.0f, 2.0f, 3.0f});
+    medium->setEmission({0.5f, 0.25f, 0.125f});
+    medium->setAnisotropy(-0.5f);
+    medium->setPriority(7);
+    return medium;
+}
+
+} // namespace
+
+TEST_CASE("medium: coefficients from colours, and values that are refused", "[bridge]")
+{
+    const osg::ref_ptr<ApiMedium> medium = new ApiMedium;
+    medium->setAttenuation({0.5f, 0.25f, 1.0f}, 2.0f);
+    CHECK(medium->getAbsorption().x() == Approx(std::log(2.0) / 2.0));
+    CHECK(medium->getAbsorption().y() == Approx(std::log(4.0) / 2.0));
+    CHECK(medium->getAbsorption().z() == 0.0f);
+    medium->setAbsorption({2.0f, 2.0f, 2.0f});
+    // Diffuse reflectances 1 - 2 sqrt(1 - a) integral of mu H(mu) of half-spaces of albedo 0.5, 0.9
+    // and 0.99 [Chandrasekhar60].
+    medium->setMultiscatterColor({0.14635f, 0.4779f, 0.79453f});
+    CHECK(medium->getScattering().x() / 2.0f == Approx(0.5).margin(0.006));
+    CHECK(medium->getScattering().y() / 2.0f == Approx(0.9).margin(0.002));
+    CHECK(medium->getScattering().z() / 2.0f == Approx(0.99).margin(0.001));
+    for (int c = 0; c < 3; ++c)
+        CHECK(medium->getAbsorption()[c] + medium->getScattering()[c] == Approx(2.0));
+    medium->setMultiscatterColor({0.0f, 1.0f, 2.0f});
+    CHECK(medium->getScattering().x() == Approx(0.0).margin(1e-4));
+    CHECK(medium->getAbsorption().y() == Approx(0.0).margin(1e-4));
+    medium->setAnisotropy(2.0f);
+    CHECK(medium->getAnisotropy() == 0.999f);
+    medium->setAnisotropy(std::numeric_limits<float>::quiet_NaN());
+    CHECK(medium->getAnisotropy() == 0.999f);
+    medium->setScattering({-1.0f, 1.0f, std::numeric_limits<float>::infinity()});
+    CHECK(medium->getScattering().x() == 0.0f);
+    CHECK(medium->getScattering().y() == 1.0f);
+    CHECK(medium->compare(*medium) == 0);
+    CHECK(medium->compare(*hazeMedium()) == -hazeMedium()->compare(*medium));
+}
+
+TEST_CASE("medium: the interior of a material, in place of its attenuation", "[bridge]")
+{
+    const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+    physical->setTransmission(1.0f);
+    physical->setAttenuationDistance(1.0f);
+    physical->setAttenuationColor({0.5f, 0.5f, 0.5f});
+    physical->setInterior(hazeMedium());
+    const osg::ref_ptr<osg::Geometry> geometry = triangleGeometry();
+    geometry->getOrCreateStateSet()->setAttribute(physical);
+    const ConversionResult result = convertGraph(geometry);
+    const Material& material = soleMaterial(result);
+    REQUIRE(material.detail);
+    const engine::Medium& interior = material.detail->interior;
+    CHECK(interior.sigmaA == Vec3(0.1f, 0.2f, 0.3f));
+    CHECK(interior.sigmaS == Vec3(1.0f, 2.0f, 3.0f));
+    CHECK(interior.emission == Vec3(0.5f, 0.25f, 0.125f));
+    CHECK(interior.anisotropy == -0.5f);
+    CHECK(interior.priority == 7);
+    CHECK_FALSE(isInterface(material));
+    CHECK(sceneTraits(*result.scene).scattering);
+    physical->setIor(1.0f);
+    CHECK(isInterface(soleMaterial(convertGraph(geometry))));
+    physical->setThinWalled(true);
+    CHECK_FALSE(sceneTraits(*convertGraph(geometry).scene).media);
+    const osg::ref_ptr<PhysicalMaterial> copy =
+        osg::clone(physical.get(), osg::CopyOp::SHALLOW_COPY);
+    CHECK(copy->getInterior() == physical->getInterior());
+    CHECK(copy->compare(*physical) == 0);
+    const osg::ref_ptr<PhysicalMaterial> deep =
+        osg::clone(physical.get(), osg::CopyOp::DEEP_COPY_ALL);
+    CHECK(deep->getInterior() != physical->getInterior());
+    CHECK(deep->compare(*physical) == 0);
+    deep->getInterior()->setPriority(8);
+    CHECK(deep->compare(*physical) != 0);
+}
+
+TEST_CASE("medium volume: the first one with a medium fills the scene", "[bridge]")
+{
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(triangleGeometry());
+    CHECK_FALSE(convertGraph(root).scene->atmosphere);
+    const osg::ref_ptr<MediumVolume> empty = new MediumVolume;
+    root->addChild(empty);
+    const osg::ref_ptr<MediumVolume> volume = new MediumVolume(hazeMedium());
+    volume->setRadius(3.0f);
+    root->addChild(placed(osg::Matrixd::scale(5, 5, 5) * osg::Matrixd::translate(1, 2, 3), volume));
+    root->addChild(new MediumVolume(hazeMedium()));
+    const ConversionResult result = convertGraph(root);
+    REQUIRE(result.scene->atmosphere);
+    CHECK(result.scene->atmosphere->medium.sigmaS == Vec3(1.0f, 2.0f, 3.0f));
+    CHECK(result.scene->atmosphere->centre == Vec3(1, 2, 3));
+    CHECK(result.scene->atmosphere->radius == 3.0f);
+    CHECK(countOf(result, "skipped.medium-volume") == 2);
+    CHECK_FALSE(result.scene->displayReferred);
+    volume->setRadius(-1.0f);
+    CHECK(volume->getRadius() == 0.0f);
+    volume->setRadius(std::numeric_limits<float>::quiet_NaN());
+    CHECK(volume->getRadius() == 0.0f);
+}
+
+TEST_CASE("medium volume: edits are seen", "[bridge]")
+{
+    LiveGraph graph;
+    const osg::ref_ptr<MediumVolume> volume = new MediumVolume(hazeMedium());
+    graph.root->addChild(volume);
+    LiveView view(graph.root.get());
+    view.image();
+    const auto edit = [&](const char* what, const std::function<void()>& change)
+    {
+        INFO(what);
+        change();
+        const std::vector<float> before = view.lastImage();
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+        CHECK(differentPixels(view.lastImage(), before) > kRoundedPixels);
+    };
+    edit("absorption", [&] { volume->getMedium()->setAbsorption({0.02f, 0.01f, 0.0f}); });
+    edit("scattering", [&] { volume->getMedium()->setScattering({0.02f, 0.01f, 0.0f}); });
+    edit("emission", [&] { volume->getMedium()->setEmission({0.0f, 0.1f, 0.0f}); });
+    edit("radius", [&] { volume->setRadius(1.0f); });
+    edit("none", [&] { graph.root->removeChild(volume); });
+}
+
+TEST_CASE("fog as a medium: the setting, and the equal half distances of all modes", "[bridge]")
+{
+    Fog fog;
+    fog.color = Vec3(0.25f, 0.5f, 1.0f);
+    fog.density = 0.5f;
+    fog.start = 1.0f;
+    fog.end = 3.0f;
+    fog.mode = FogMode::Exponential;
+    CHECK(mediumOf(fog).sigmaS.y == Approx(0.25));
+    CHECK(mediumOf(fog).sigmaA.y == Approx(0.25));
+    CHECK(mediumOf(fog).sigmaA.z == 0.0f);
+    fog.mode = FogMode::ExponentialSquared;
+    CHECK(mediumOf(fog).sigmaS.z == Approx(std::sqrt(std::log(2.0)) * 0.5));
+    fog.mode = FogMode::Linear;
+    CHECK(mediumOf(fog).sigmaS.z == Approx(std::log(2.0) / 2.0));
+    for (const FogMode mode : {FogMode::Linear, FogMode::ExponentialSquared, FogMode::Exponential})
+    {
+        fog.mode = mode;
+        const double half = std::log(2.0) / double(mediumOf(fog).sigmaS.z);
+        CHECK(fogShare(fog, float(half)) == Approx(0.5).margin(1e-5));
+    }
+
+    const osg::ref_ptr<osg::Geometry> geometry = triangleGeometry();
+    osg::ref_ptr<osg::Fog> source = new osg::Fog;
+    source->setMode(osg::Fog::EXP);
+    source->setDensity(0.5f);
+    geometry->getOrCreateStateSet()->setAttributeAndModes(source);
+    SceneConverter converter;
+    ConversionInput input = inputFor(geometry);
+    const SceneTraits depth = sceneTraits(*converter.convert(input).scene);
+    CHECK(depth.fog);
+    CHECK_FALSE(depth.media);
+    input.fogUse = FogUse::Medium;
+    const SceneTraits medium = sceneTraits(*converter.convert(input).scene);
+    CHECK_FALSE(medium.fog);
+    CHECK(medium.media);
+    input.fogUse = FogUse::Off;
+    const SceneTraits none = sceneTraits(*converter.convert(input).scene);
+    CHECK_FALSE(none.fog);
+    CHECK_FALSE(none.media);
+}

@@ -1,0 +1,189 @@
+// MediaSamplingTest.cpp - samples of phase functions, free flights and points along rays.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/media/Equiangular.h"
+#include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/media/Transmittance.h"
+
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+
+#include <functional>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr double kSignificance = 1e-3; ///< false alarms of all chi-square tests of a case together
+constexpr int kSamples = 40000, kCells = 64;
+
+/// Returns the integral of a density over each of the cells of [low, high].
+std::vector<double> expectedCounts(const std::function<double(double)>& density, double low,
+                                   double high)
+{
+    std::vector<double> counts;
+    for (int cell = 0; cell < kCells; ++cell)
+    {
+        double sum = 0.0;
+        for (int k = 0; k < 64; ++k)
+            sum += density(low + (high - low) * (cell + (k + 0.5) / 64.0) / kCells);
+        counts.push_back(kSamples * sum / 64.0 * (high - low) / kCells);
+    }
+    return counts;
+}
+
+void count(std::vector<double>& counts, double value, double low, double high)
+{
+    const int cell = static_cast<int>((value - low) / (high - low) * kCells);
+    if (cell >= 0 && cell < kCells) counts[static_cast<std::size_t>(cell)] += 1.0;
+}
+
+} // namespace
+
+TEST_CASE("phase: samples have the density that is evaluated, and the mean cosine g",
+          "[integrators][statistics][media]")
+{
+    Uniform random(1);
+    const float anisotropies[] = {0.0f, 0.3f, -0.6f, 0.9f, 0.999f, -0.999f};
+    for (const float g : anisotropies)
+    {
+        std::vector<double> counts(kCells);
+        Estimate cosine, second;
+        const Vec3 axis = glm::normalize(Vec3(0.3f, -0.5f, 0.8f));
+        for (int i = 0; i < kSamples; ++i)
+        {
+            const float u = random(), v = random();
+            const Vec3 w = samplePhase(g, axis, u, v);
+            CHECK(glm::length(w) == Approx(1.0).margin(1e-5));
+            const double z = double(glm::dot(w, axis));
+            cosine.add(z);
+            second.add(0.5 * (3.0 * z * z - 1.0));
+            count(counts, z, -1.0, 1.0);
+        }
+        const auto expected = expectedCounts(
+            [g](double z) { return 6.283185307 * double(evalPhase(g, float(z))); }, -1.0, 1.0);
+        CAPTURE(g);
+        if (std::fabs(g) < 0.95f) // the peaks of others are narrower than cells
+            CHECK(chiSquareTest(counts, expected) > sidak(kSignificance, 4));
+        CHECK(cosine.agrees(double(g), 1e-5));
+        CHECK(second.agrees(double(g) * double(g), 1e-4)); // moments are powers of g
+    }
+}
+
+TEST_CASE("free flights: three channels, and flights that must collide",
+          "[integrators][statistics][media]")
+{
+    Uniform random(2);
+    const Vec3 sigmas[] = {Vec3(1.0f), Vec3(0.5f, 2.0f, 8.0f), Vec3(0.0f, 1.0f, 3.0f)};
+    const float length = 1.5f;
+    for (const Vec3 sigma : sigmas)
+        for (const bool within : {false, true})
+        {
+            const Vec3 pmf(0.5f, 0.3f, 0.2f);
+            std::vector<double> counts(kCells);
+            Estimate through[3], absorbed[3];
+            for (int i = 0; i < kSamples; ++i)
+            {
+                const float u = random();
+                const FreeFlight flight = within ? sampleFlightWithin(sigma, length, pmf, u)
+                                                 : sampleFlight(sigma, length, pmf, u);
+                if (flight.collides) count(counts, double(flight.distance), 0.0, double(length));
+                for (int c = 0; c < 3; ++c)
+                {
+                    through[c].add(flight.collides ? 0.0 : double(flight.weight[c]));
+                    absorbed[c].add(flight.collides ? double(flight.weight[c] * sigma[c]) : 0.0);
+                }
+            }
+            const double hit = within ? double(collisionProbability(sigma, length, pmf)) : 1.0;
+            const auto density = [&](double t)
+            {
+                double sum = 0.0;
+                for (int c = 0; c < 3; ++c)
+                    sum += double(pmf[c] * sigma[c]) * std::exp(-double(sigma[c]) * t);
+                return sum / hit;
+            };
+            CAPTURE(sigma.x, sigma.y, within);
+            CHECK(chiSquareTest(counts, expectedCounts(density, 0.0, double(length))) >
+                  sidak(kSignificance, 6));
+            for (int c = 0; c < 3; ++c)
+            {
+                const double left = std::exp(-double(sigma[c]) * double(length));
+                CHECK(absorbed[c].agrees(1.0 - left, 1e-5));
+                if (!within) CHECK(through[c].agrees(left, 1e-5));
+            }
+        }
+}
+
+TEST_CASE("free flights: no depth makes a weight that is not finite", "[integrators][media]")
+{
+    Uniform random(3);
+    for (const float sigma : {0.0f, 1e-30f, 1e-9f, 1.0f, 1e6f, 1e24f})
+        for (const float length : {1e-6f, 1.0f, 1e6f})
+            for (int i = 0; i < 64; ++i)
+            {
+                const Vec3 grey(sigma), coloured(sigma, 0.5f * sigma, 2.0f * sigma);
+                const float u = i == 0 ? 0.0f : i == 1 ? kOneMinusEpsilon : random();
+                for (const Vec3& s : {grey, coloured})
+                    for (const Vec3& pmf : {Vec3(1.0f / 3), Vec3(1, 0, 0)})
+                    {
+                        for (const FreeFlight& flight : {sampleFlight(s, length, pmf, u),
+                                                         sampleFlightWithin(s, length, pmf, u)})
+                        {
+                            CHECK(glm::dot(flight.weight, Vec3(1.0f)) < kInfinity);
+                            CHECK(flight.distance >= 0.0f);
+                            CHECK(flight.distance <= length);
+                        }
+                        const Vec3 left = transmittance(s, length);
+                        CHECK((left.x >= 0.0f && left.x <= 1.0f));
+                        CHECK(emittedAlong(Vec3(1.0f), s, length).x <= length * 1.0001f);
+                    }
+            }
+}
+
+TEST_CASE("equiangular points have the density that is evaluated",
+          "[integrators][statistics][media]")
+{
+    Uniform random(4);
+    const Vec3 lights[] = {Vec3(2, 1, 0), Vec3(-3, 0.2f, 0), Vec3(1.5f, 0, 0), Vec3(9, 4, 2)};
+    for (const Vec3& light : lights)
+    {
+        const Equiangular stretch(Vec3(0.0f), Vec3(1, 0, 0), 0.5f, 4.0f, light);
+        std::vector<double> counts(kCells);
+        for (int i = 0; i < kSamples; ++i)
+        {
+            const EquiangularSample sample = stretch.sample(random());
+            REQUIRE(sample.pdf == stretch.pdf(sample.t));
+            count(counts, double(sample.t), 0.5, 4.0);
+        }
+        const auto density = [&](double t) { return double(stretch.pdf(float(t))); };
+        CAPTURE(light.x, light.y);
+        if (light.y > 0.0f) // on the ray itself the peak is narrower than cells
+            CHECK(chiSquareTest(counts, expectedCounts(density, 0.5, 4.0)) >
+                  sidak(kSignificance, 3));
+        CHECK(counts[0] + counts[kCells / 2] > 0.0);
+    }
+}
+
+TEST_CASE("medium stack: a set of four, in the order of entry", "[integrators][media]")
+{
+    MediumStack stack;
+    CHECK(stack.isEmpty());
+    stack = stack.entered(7).entered(3).entered(7);
+    CHECK(stack[0] == 7);
+    CHECK(stack[2] == 7);
+    CHECK(stack.left(7)[0] == 7); // the last one is left
+    CHECK(stack.left(7)[2] == kOutside);
+    CHECK(stack.left(3)[1] == 7);
+    CHECK(stack.left(9).word() == stack.word());
+    const MediumStack full = stack.entered(5);
+    CHECK(full.isFull());
+    CHECK(full.entered(1).word() == full.word());
+    CHECK(full.left(5).word() == stack.word());
+    CHECK(full.begunIn(1).word() == full.word());
+    CHECK(stack.begunIn(2)[0] == 2);
+    CHECK(stack.begunIn(2)[3] == 7);
+    CHECK(full.left(7)[2] == 5);
+}

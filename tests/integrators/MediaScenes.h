@@ -1,0 +1,47 @@
+// MediaScenes.h - bodies and air of participating media, for the tests of integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/Environments.h"
+#include "tests/integrators/Measure.h"
+
+namespace osgRayTrace::engine::test
+{
+
+/// Returns a grey medium of an extinction and an albedo.
+inline Medium mediumOf(float sigmaT, float albedo, float g = 0.0f)
+{
+    Medium medium;
+    medium.sigmaS = Vec3(sigmaT * albedo);
+    medium.sigmaA = Vec3(sigmaT * (1.0f - albedo));
+    medium.anisotropy = g;
+    return medium;
+}
+
+/// Returns the smooth boundary of a medium; of ior 1 it bends no light.
+inline Material bodyOf(const Medium& medium, float ior = 1.0f)
+{
+    Material material = glass(ior);
+    MaterialDetail detail;
+    detail.interior = medium;
+    material.detail = std::make_shared<MaterialDetail>(detail);
+    return material;
+}
+
+inline void setAtmosphere(SceneBuilder& builder, const Medium& medium, float radius,
+                          Vec3 centre = Vec3(0.0f))
+{
+    Atmosphere atmosphere;
+    atmosphere.medium = medium;
+    atmosphere.radius = radius;
+    atmosphere.centre = centre;
+    builder.scene->atmosphere = std::make_shared<Atmosphere>(atmosphere);
+}
+
+/// Returns a view of one direction: a patch of the given side seen along -normal.
+inline View alongRay(Vec3d centre, Vec3d normal, int pixels = 4)
+{
+    return patchView(centre, normal, 1e-4, pixels);
+}
+
+} // namespace osgRayTrace::engine::test
