@@ -24,6 +24,7 @@ struct ViewInputs
     std::shared_ptr<PhotonPasses> photons; ///< shared by all views of the scene
     RenderOptions options;
     float exposureEv = 0.0f; ///< [f-stops]
+    ToneCurve toneCurve = ToneCurve::Srgb;
     DenoiseKind denoise = DenoiseKind::Off;
     bool reprojects =
         false; ///< whether a view that moves takes along what its image has accumulated
