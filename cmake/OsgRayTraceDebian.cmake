@@ -85,7 +85,7 @@ foreach(library OSGRAYTRACE OSGRAYTRACEOFFSCREEN)
 endforeach()
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libopenscenegraph-dev, libgl-dev, libosmesa6-dev")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "openscenegraph, libgl1-mesa-dri")
-set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "osgraytrace-doc, gnuplot-nox")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "osgraytrace-doc, gnuplot-nox, ffmpeg")
 set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
 if(OSGRAYTRACE_HAS_PYTHON) # a module is of one version of Python
     math(EXPR nextMinor "${Python_VERSION_MINOR} + 1")

@@ -5,14 +5,15 @@
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv, the examples),
-# and "osgraytracebench report" uses gnuplot. The tests of form use clang-format of this version and doxygen.
+# "osgraytracebench report" uses gnuplot, and videos are made by ffmpeg. The tests of form use clang-format of this version
+# and doxygen.
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
           libdraco-dev libmeshoptimizer-dev libwebp-dev libopenmpi-dev openmpi-bin libzmq3-dev
           pybind11-dev python3-dev python3-numpy
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
-          gnuplot-nox clang-format-14 doxygen graphviz)
+          gnuplot-nox ffmpeg clang-format-14 doxygen graphviz)
 
 say() { printf '%s\n' "$*" >&2; }
 

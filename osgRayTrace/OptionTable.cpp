@@ -207,6 +207,8 @@ const std::vector<OptionRow>& optionTable()
                   "Distance that the lens shows sharp [length]; 0: what is straight ahead"),
         numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
                   "Exposure [EV]: radiance times 2^value before display"),
+        choiceRow("tone-curve", kToneCurveWords, &S::getToneCurve, &S::setToneCurve,
+                  "How bright radiance is shown: clamped, or by Khronos PBR Neutral or AgX"),
         choiceRow(
             "color-rule", kColorRuleWords, &S::getColorRule, &S::setColorRule,
             "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),

@@ -71,6 +71,7 @@ inline constexpr std::string_view kEnvironmentSamplingWords[] = {"importance", "
                                                                  "uniform"};
 inline constexpr std::string_view kDebugChannelWords[] = {"normal", "uv",      "id",  "albedo",
                                                           "depth",  "dropped", "cost"};
+inline constexpr std::string_view kToneCurveWords[] = {"srgb", "neutral", "agx"};
 inline constexpr std::string_view kDenoiseWords[] = {"off", "filter", "oidn"};
 inline constexpr std::string_view kFogWords[] = {"depth", "medium", "off"};
 inline constexpr std::string_view kPresentationWords[] = {"frame-locked", "background"};

@@ -5,6 +5,7 @@
 #include "osgRayTrace/PassSumsState.h"
 #include "osgRayTrace/bridge/common/PixelImage.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/film/Resolve.h"
 
 #include <algorithm>
@@ -146,16 +147,19 @@ osg::ref_ptr<osg::Image> PassSums::getColorImage() const
     return imageOf(*this, make);
 }
 
-osg::ref_ptr<osg::Image> PassSums::getDisplayImage(float exposureEv,
-                                                   const osg::Vec4& clearColor) const
+osg::ref_ptr<osg::Image> PassSums::getDisplayImage(float exposureEv, const osg::Vec4& clearColor,
+                                                   const std::string& toneCurve) const
 {
+    const osg::ref_ptr<RayTraceSettings> shown = new RayTraceSettings;
+    if (!shown->set("tone-curve", toneCurve)) return nullptr;
+    const engine::ToneMap toneMap{exposureEv, displayReferred,
+                                  engine::toneCurve(shown->getToneCurve())};
     const auto make = [&](const engine::Film& film)
     {
         const osg::ref_ptr<osg::Image> image =
             engine::newPixelImage(width, height, GL_RGBA, GL_UNSIGNED_BYTE);
         for (int tile = 0; image && tile < film.tileCount(); ++tile)
-            engine::resolveTileDisplay(film, tile, {exposureEv, displayReferred}, image->data(),
-                                       nullptr);
+            engine::resolveTileDisplay(film, tile, toneMap, image->data(), nullptr);
         if (image) engine::blendOver(*image, clearColor);
         return image;
     };

@@ -263,6 +263,11 @@ void RayTraceSettings::setExposure(float value)
     changeNumber("exposure", kExposureRange, _values.exposure, value, _modifiedCount);
 }
 
+void RayTraceSettings::setToneCurve(ToneCurve value)
+{
+    changeChoice("tone-curve", kToneCurveWords, _values.toneCurve, value, _modifiedCount);
+}
+
 void RayTraceSettings::setPhotons(int value)
 {
     changeNumber("photons", kPhotonsRange, _values.photons, value, _modifiedCount);

@@ -7,6 +7,8 @@
 #include "osgPlugins/exr/ExrPlanes.h"
 #include "osgRayTrace/base/NumberText.h"
 
+#include <osgRayTrace/RayTraceSettings>
+
 #include <charconv>
 #include <sstream>
 
@@ -22,7 +24,8 @@ using engine::ExrPlanes;
 const char* const kFormat = "osgRayTrace.sums"; ///< the version of the layout
 const char* const kPasses = "osgRayTrace.passes";
 const char* const kPicture = "osgRayTrace.picture";
-const char* const kShown = "osgRayTrace.shown"; ///< display-referred, exposure, clear colour
+/// Display-referred, exposure, clear colour, and the tone curve if it is not sRGB's.
+const char* const kShown = "osgRayTrace.shown";
 const char* const kVersion = "1";
 
 const char* const kHalves[] = {"even", "odd"};
@@ -97,6 +100,7 @@ std::string shownText(const Checkpoint& checkpoint)
     text += ' ' + textOf(checkpoint.exposureEv);
     for (int i = 0; i < 4; ++i)
         text += ' ' + textOf(checkpoint.clearColor[i]);
+    if (checkpoint.toneCurve != "srgb") text += ' ' + checkpoint.toneCurve;
     return text;
 }
 
@@ -116,7 +120,9 @@ bool takeShown(const std::string& text, Checkpoint& checkpoint)
     checkpoint.sums.displayReferred = values[0] != 0.0f;
     checkpoint.exposureEv = values[1];
     checkpoint.clearColor.set(values[2], values[3], values[4], values[5]);
-    return true;
+    if (!(words >> word)) return true;
+    checkpoint.toneCurve = word;
+    return osg::ref_ptr<RayTraceSettings>(new RayTraceSettings)->set("tone-curve", word);
 }
 
 std::string textOf(const ExrPlanes& planes, const char* name)

@@ -17,6 +17,7 @@ struct Checkpoint
     PassSums sums;
     float exposureEv = 0.0f;
     osg::Vec4 clearColor;
+    std::string toneCurve = "srgb"; ///< a word of the option
 };
 
 /// Writes an OpenEXR file, whole or not at all: R, G, B and A as the picture's, the depth, the sums

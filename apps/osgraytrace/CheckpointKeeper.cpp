@@ -82,7 +82,8 @@ int CheckpointKeeper::keep()
 
 Checkpoint CheckpointKeeper::checkpoint() const
 {
-    return {_renderer.getPassSums(), _options.settings->getExposure(), _clearColor};
+    return {_renderer.getPassSums(), _options.settings->getExposure(), _clearColor,
+            _options.settings->get("tone-curve")};
 }
 
 } // namespace osgRayTrace::app

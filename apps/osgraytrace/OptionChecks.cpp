@@ -90,7 +90,7 @@ void checkParts(const Options& options)
     exclude("--merge", "--crop", options.crop.has_value());
     exclude("--merge", "lights", options.lights.any() || options.lights.headlight.has_value());
     for (const auto& [name, value] : options.assignments)
-        exclude("--merge", ("--" + name).c_str(), name != "exposure");
+        exclude("--merge", ("--" + name).c_str(), name != "exposure" && name != "tone-curve");
     if (options.outputs.empty() && options.checkpoint.empty())
         throw Failure(kUsage, "--merge needs -o or --checkpoint");
 }

@@ -59,6 +59,7 @@ Checkpoint checkpointOf(const engine::PassSums& sums, const RankRender& render,
     kept.displayReferred = render.displayReferred;
     checkpoint.exposureEv = options.settings->getExposure();
     checkpoint.clearColor = camera.clearColor;
+    checkpoint.toneCurve = options.settings->get("tone-curve");
     return checkpoint;
 }
 

@@ -5,7 +5,6 @@
 #include "Run.h"
 #include "apps/common/Failure.h"
 
-#include <algorithm>
 #include <cstdio>
 
 namespace osgRayTrace::app
@@ -34,13 +33,14 @@ int runMerge(const Options& options)
 {
     checkFiles(options);
     Checkpoint all = joined(options.merged);
-    const bool exposed =
-        std::any_of(options.assignments.begin(), options.assignments.end(),
-                    [](const auto& assignment) { return assignment.first == "exposure"; });
-    if (exposed) all.exposureEv = options.settings->getExposure();
+    for (const auto& [name, value] : options.assignments)
+    {
+        if (name == "exposure") all.exposureEv = options.settings->getExposure();
+        if (name == "tone-curve") all.toneCurve = options.settings->get(name);
+    }
     Picture picture;
     picture.radiance = all.sums.getColorImage();
-    picture.display = all.sums.getDisplayImage(all.exposureEv, all.clearColor);
+    picture.display = all.sums.getDisplayImage(all.exposureEv, all.clearColor, all.toneCurve);
     if (!picture.radiance || !picture.display)
         throw Failure(kCannotLoad, "the checkpoints are damaged, or there is not enough memory");
     const int code = writeAll(options, options.outputs, picture, {});

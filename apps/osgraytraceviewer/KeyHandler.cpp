@@ -75,6 +75,9 @@ bool KeyHandler::press(const osgGA::GUIEventAdapter& event, osgViewer::View* vie
     case 'n':
         cycle(settings, "light-sampling");
         return true;
+    case 'T':
+        cycle(settings, "tone-curve");
+        return true;
     case '+':
     case '=':
         settings.setExposure(settings.getExposure() + kExposureStep);
@@ -203,6 +206,7 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
 {
     usage.addKeyboardMouseBinding("i", "Next integrator");
     usage.addKeyboardMouseBinding("n", "Next light sampling strategy");
+    usage.addKeyboardMouseBinding("T", "Next tone curve");
     usage.addKeyboardMouseBinding("+", "Exposure half a stop up");
     usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
     usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");

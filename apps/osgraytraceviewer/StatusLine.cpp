@@ -105,6 +105,8 @@ std::string statusText(const RayTracedScene& scene, bool frozen)
         text += format("   1/%d resolution", statistics.resolutionDivider);
     if (settings.getExposure() != 0.0f)
         text += format("   exposure %+g EV", double(settings.getExposure()));
+    if (settings.getToneCurve() != RayTraceSettings::SRGB)
+        text += "   " + settings.get("tone-curve") + " tones";
     if (settings.getDenoise() != RayTraceSettings::OFF && !statistics.denoiser.empty())
         text += format("   denoised by %s in %.1f ms", statistics.denoiser.c_str(),
                        statistics.denoiseMilliseconds);

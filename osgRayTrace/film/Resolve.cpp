@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/film/Resolve.h"
 
+#include "osgRayTrace/film/PowerLanes.h"
+#include "osgRayTrace/film/ToneCurves.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,39 +16,6 @@ namespace osgRayTrace::engine
 
 namespace
 {
-
-/// Returns 2^x for x in [-126, 127] with a relative error below 3e-6, by a polynomial through
-/// Chebyshev nodes.
-OSGRAYTRACE_INLINE float exp2Lanes(float x)
-{
-    const float whole = static_cast<float>(static_cast<int>(x + (x < 0.0f ? -0.5f : 0.5f)));
-    const float f = x - whole;
-    const float series =
-        1.0f + f * (0.693121045f + f * (0.240223490f + f * (0.0559219758f + f * 0.00966636852f)));
-    const int exponent = (static_cast<int>(whole) + 127) * (1 << 23);
-    float scale;
-    std::memcpy(&scale, &exponent, sizeof(scale));
-    return series * scale;
-}
-
-/// Returns log2(x) for x > 0 and normal with an absolute error below 6e-6, by a polynomial through
-/// Chebyshev nodes, without a division.
-OSGRAYTRACE_INLINE float log2Lanes(float x)
-{
-    int bits;
-    std::memcpy(&bits, &x, sizeof(bits));
-    const int shifted = bits - 0x3f3504f3; // sqrt(1/2): the mantissa ends in [0.707, 1.414)
-    const int exponent = shifted >> 23;
-    const int mantissaBits = bits - exponent * (1 << 23);
-    float m;
-    std::memcpy(&m, &mantissaBits, sizeof(m));
-    const float t = m - 1.0f;
-    const float series =
-        1.44270044f +
-        t * (-0.721195752f +
-             t * (0.479925573f + t * (-0.366925771f + t * (0.316898187f + t * -0.202289264f))));
-    return static_cast<float>(exponent) + t * series;
-}
 
 /// Returns the sRGB encoding of a value in [0,1].
 OSGRAYTRACE_INLINE float encodeLanes(float x)
@@ -98,6 +68,14 @@ void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* 
                                     alpha * encodeLanes(clampUnit(blocks[b].b[i] * scale)), alpha);
         }
     }
+}
+
+/// Packs linear radiance as the tone map shows it; values are overwritten.
+void packShown(const ToneMap& toneMap, TileRgba& values, UintLanes* packed)
+{
+    const float exposure = std::exp2(toneMap.exposureEv);
+    if (toneMap.curve != ToneCurve::Srgb) applyCurve(toneMap.curve, exposure, values);
+    packEncoded(values, toneMap.curve == ToneCurve::Srgb ? exposure : 1.0f, packed);
 }
 
 /// Returns a decoded value, limited to the range of float: a value that was shown as white anyway
@@ -202,12 +180,13 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
     TileRgba values;
     UintLanes packed[kTileBlocks];
     film.mean(tile, values);
-    const bool asIs = toneMap.displayReferred && toneMap.exposureEv == 0.0f;
+    const bool asIs =
+        toneMap.displayReferred && toneMap.exposureEv == 0.0f && toneMap.curve == ToneCurve::Srgb;
     if (toneMap.displayReferred && !asIs) decode(values);
     if (asIs)
         packDisplay(values, packed);
     else
-        packEncoded(values, std::exp2(toneMap.exposureEv), packed);
+        packShown(toneMap, values, packed);
     copyRows(film, tile, packed[0].v, reinterpret_cast<uint32_t*>(image));
     if (depth) copyRows(film, tile, depthOf(film, tile), depth);
 }
@@ -230,7 +209,7 @@ void splitPixels(const float* __restrict rgba, int count, RgbaLanes& __restrict 
 
 } // namespace
 
-void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image)
+void displayPixels(const float* rgba, std::size_t count, const ToneMap& toneMap, uint8_t* image)
 {
     TileRgba values = {};
     UintLanes packed[kTileBlocks];
@@ -243,7 +222,7 @@ void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8
         if (whole < kTileBlocks)
             splitPixels(rgba + 4 * (first + whole * kLanes),
                         static_cast<int>(pixels - whole * kLanes), values[whole]);
-        packEncoded(values, std::exp2(exposureEv), packed);
+        packShown(toneMap, values, packed);
         std::memcpy(image + 4 * first, packed, 4 * pixels);
     }
 }

@@ -18,8 +18,9 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
                         float* depth);
 
 /// Writes the display values of linear pixels, premultiplied RGBA, 4 floats each, as
-/// resolveTileDisplay computes them.
-void displayPixels(const float* rgba, std::size_t count, float exposureEv, uint8_t* image);
+/// resolveTileDisplay computes them. Whether the tone map is display-referred does not matter: the
+/// pixels are linear.
+void displayPixels(const float* rgba, std::size_t count, const ToneMap& toneMap, uint8_t* image);
 
 /// Writes the window depths of the first pass, 1 float a pixel; 1 for a tile without depths.
 void resolveTileDepth(const Film& film, int tile, float* depth);

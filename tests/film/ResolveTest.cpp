@@ -5,6 +5,10 @@
 
 #include "osgRayTrace/film/Resolve.h"
 
+#include <array>
+#include <cmath>
+#include <limits>
+
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
@@ -238,4 +242,93 @@ TEST_CASE("resolve: the error channel is half the difference of the halves", "[f
     CHECK(error.back() == -1.0f);
     resolveTileError(film, 0, true, error.data());
     CHECK(error[3 * 2 + 1] == Approx(0.5f * (linearFromSrgb(4.0f) - 1.0f)));
+}
+
+namespace
+{
+
+using Color = std::array<double, 3>;
+
+/// Returns Khronos PBR Neutral of a colour, in double.
+Color exactNeutral(Color c)
+{
+    const double low = std::min({c[0], c[1], c[2]});
+    const double offset = low < 0.08 ? low - 6.25 * low * low : 0.04;
+    for (double& value : c)
+        value -= offset;
+    const double peak = std::max({c[0], c[1], c[2]});
+    if (peak < 0.76) return c;
+    const double newPeak = 1.0 - 0.24 * 0.24 / (peak + 0.24 - 0.76);
+    const double grey = 1.0 - 1.0 / (0.15 * (peak - newPeak) + 1.0);
+    for (double& value : c)
+        value = value * newPeak / peak * (1.0 - grey) + newPeak * grey;
+    return c;
+}
+
+/// Returns what a curve makes of a colour, as display bytes.
+std::array<int, 4> shown(ToneCurve curve, const Color& color, float alpha = 1.0f, float ev = 0.0f)
+{
+    ToneMap toneMap;
+    toneMap.curve = curve;
+    toneMap.exposureEv = ev;
+    const float pixel[4] = {float(color[0]) * alpha, float(color[1]) * alpha,
+                            float(color[2]) * alpha, alpha};
+    uint8_t bytes[4];
+    displayPixels(pixel, 1, toneMap, bytes);
+    return {bytes[0], bytes[1], bytes[2], bytes[3]};
+}
+
+} // namespace
+
+TEST_CASE("tone curves: neutral is that of its specification", "[film]")
+{
+    for (const Color& color :
+         {Color{0.0, 0.0, 0.0}, Color{0.03, 0.05, 0.04}, Color{0.18, 0.18, 0.18},
+          Color{0.5, 0.2, 0.1}, Color{0.75, 0.9, 0.8}, Color{4.0, 1.0, 0.2}, Color{0.0, 0.0, 60.0},
+          Color{900.0, 1000.0, 800.0}})
+    {
+        CAPTURE(color[0], color[1], color[2]);
+        const Color expected = exactNeutral(color);
+        const auto bytes = shown(ToneCurve::Neutral, color);
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(std::abs(bytes[i] - 255.0 * exactSrgb(std::max(expected[i], 0.0))) <= 0.52);
+    }
+}
+
+TEST_CASE("tone curves: AgX keeps greys grey, grows, and ends at white", "[film]")
+{
+    int before = -1;
+    for (double grey = 1e-4; grey < 1e4; grey *= 1.5)
+    {
+        CAPTURE(grey);
+        const auto bytes = shown(ToneCurve::Agx, {grey, grey, grey});
+        CHECK(std::abs(bytes[0] - bytes[1]) <= 1);
+        CHECK(std::abs(bytes[0] - bytes[2]) <= 1);
+        CHECK(bytes[0] >= before - 1);
+        before = bytes[0];
+    }
+    CHECK(before >= 250);
+    // The published fit at middle grey, worked out by hand: log2(0.18) is at 0.6061 of the range,
+    // whose contrast is 0.4967, which a display of gamma 2.2 sends as 0.2145.
+    CHECK(std::abs(shown(ToneCurve::Agx, {0.18, 0.18, 0.18})[0] - 255.0 * exactSrgb(0.2145)) <=
+          1.0);
+    const auto red = shown(ToneCurve::Agx, {50.0, 0.0, 0.0});
+    CHECK(red[1] > 100); // bright red pales
+}
+
+TEST_CASE("tone curves: alpha and exposure act as without them, and nothing is not finite",
+          "[film]")
+{
+    for (const ToneCurve curve : {ToneCurve::Srgb, ToneCurve::Neutral, ToneCurve::Agx})
+    {
+        const Color color{0.6, 0.3, 2.0};
+        const auto whole = shown(curve, color), half = shown(curve, color, 0.5f);
+        CHECK(half[3] == 128);
+        for (std::size_t i = 0; i < 3; ++i)
+            CHECK(std::abs(half[i] - whole[i] / 2.0) <= 1.0);
+        CHECK(shown(curve, {0.3, 0.15, 1.0}, 1.0f, 1.0f) == whole);
+        const double inf = std::numeric_limits<double>::infinity();
+        CHECK(shown(curve, {inf, inf, inf})[0] >= 250);
+        CHECK(shown(curve, {std::nan(""), -1.0, 0.0})[1] <= 1);
+    }
 }

@@ -84,6 +84,20 @@ DebugChannel debugChannel(RayTraceSettings::DebugChannel channel)
 
 } // namespace
 
+ToneCurve toneCurve(RayTraceSettings::ToneCurve curve)
+{
+    switch (curve)
+    {
+    case RayTraceSettings::SRGB:
+        return ToneCurve::Srgb;
+    case RayTraceSettings::NEUTRAL:
+        return ToneCurve::Neutral;
+    case RayTraceSettings::AGX:
+        return ToneCurve::Agx;
+    }
+    return ToneCurve::Srgb;
+}
+
 RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
 {
     RenderOptions options;
@@ -114,6 +128,7 @@ ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene
     ToneMap toneMap;
     toneMap.exposureEv = settings.getExposure();
     toneMap.displayReferred = scene.displayReferred;
+    toneMap.curve = toneCurve(settings.getToneCurve());
     return toneMap;
 }
 
@@ -136,6 +151,7 @@ void setInputs(ViewInputs& inputs, const RayTraceSettings& settings)
 {
     inputs.options = renderOptionsFromSettings(settings);
     inputs.exposureEv = settings.getExposure();
+    inputs.toneCurve = toneCurve(settings.getToneCurve());
     inputs.denoise = denoiseKind(settings);
     // A pixel behind a lens shows more than the surface that a pinhole sees in it.
     const bool isPinhole = !(settings.getAperture() > 0.0f);

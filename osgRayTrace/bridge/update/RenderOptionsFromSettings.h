@@ -16,7 +16,11 @@ namespace osgRayTrace::engine
 /// Returns the settings that the integrators need.
 RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings);
 
-/// Returns the tone map of an image of the scene: the settings' exposure, the scene's colour rule.
+/// Returns the engine's name of a tone curve.
+ToneCurve toneCurve(RayTraceSettings::ToneCurve curve);
+
+/// Returns the tone map of an image of the scene: the settings' exposure and curve, the scene's
+/// colour rule.
 ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene);
 
 /// Returns how images are denoised before they are displayed. Debug channels are not denoised.

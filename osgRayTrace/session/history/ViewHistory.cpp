@@ -181,7 +181,7 @@ void ViewHistory::blendRows(const RenderSession& session, const ToneMap* toneMap
                             };
                             if (blends) forEachPart(session, first, end, blendPart);
                             if (toneMap)
-                                displayPixels(&_blended[4 * pixel], pixels, toneMap->exposureEv,
+                                displayPixels(&_blended[4 * pixel], pixels, *toneMap,
                                               rgba + 4 * pixel);
                         });
     _blendedPasses = allPasses(session);

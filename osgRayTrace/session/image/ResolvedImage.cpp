@@ -17,7 +17,7 @@ void presentImage(const ResolvedImage& image, const ToneMap& toneMap, const Work
     workers.forEach(static_cast<std::size_t>(image.height),
                     [&](std::size_t row)
                     {
-                        displayPixels(&image.radiance[4 * row * width], width, toneMap.exposureEv,
+                        displayPixels(&image.radiance[4 * row * width], width, toneMap,
                                       rgba + 4 * row * width);
                         if (depth)
                             std::copy_n(&image.depth[row * width], width, depth + row * width);

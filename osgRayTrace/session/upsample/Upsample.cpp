@@ -238,7 +238,7 @@ UpsampleCounts presentUpsampled(const ResolvedImage& image,
         image, samples, full, mostTraced, workers, depth,
         [&](std::size_t) { return std::unique_ptr<float[]>(new float[values]); },
         [&](std::size_t first, std::size_t pixels, const float* radiance)
-        { displayPixels(radiance, pixels, toneMap.exposureEv, rgba + 4 * first); });
+        { displayPixels(radiance, pixels, toneMap, rgba + 4 * first); });
 }
 
 } // namespace osgRayTrace::engine

@@ -11,6 +11,7 @@ ToneMap toneMapOf(const ViewInputs& inputs)
 {
     ToneMap toneMap;
     toneMap.exposureEv = inputs.exposureEv;
+    toneMap.curve = inputs.toneCurve;
     toneMap.displayReferred = inputs.scene->scene().displayReferred;
     return toneMap;
 }
@@ -19,7 +20,7 @@ bool sameImage(const ViewInputs& a, const ViewInputs& b)
 {
     return a.scene == b.scene && a.workers == b.workers && a.photons == b.photons &&
            a.help == b.help && !a.options.needsRestart(b.options) && a.exposureEv == b.exposureEv &&
-           a.denoise == b.denoise && a.reprojects == b.reprojects &&
+           a.toneCurve == b.toneCurve && a.denoise == b.denoise && a.reprojects == b.reprojects &&
            a.keepsUnchanged == b.keepsUnchanged && a.maxPasses == b.maxPasses &&
            a.passesPerFrame == b.passesPerFrame;
 }

@@ -26,6 +26,7 @@ struct ViewInputs
     std::shared_ptr<TileHelp> help;        ///< null: all tiles are traced here
     RenderOptions options;
     float exposureEv = 0.0f; ///< [f-stops]
+    ToneCurve toneCurve = ToneCurve::Srgb;
     DenoiseKind denoise = DenoiseKind::Off;
     bool reprojects =
         false; ///< whether a view that moves takes along what its image has accumulated
