@@ -254,13 +254,15 @@ void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers,
     _columns = UnclearedArray<float>(kColumns * stride());
     _normal = UnclearedArray<uint32_t>(stride());
     if (keepBins) _bin = UnclearedArray<uint32_t>(_count);
+    _first = UnclearedArray<uint32_t>(s.buckets + 1);
+    std::vector<std::vector<Range>> denseCells(kParts);
+    workers.forEach(kParts, [&](std::size_t part) { denseCells[part] = sortPart(s, part); });
+    // What lies behind the photons is written last: the first touch of each column would have the
+    // system clear a huge page while all other threads wait.
     for (int c = 0; c < kColumns; ++c)
         std::fill_n(column(static_cast<Column>(c)) + _count, kLanes, 0.0f);
     std::fill_n(&_normal[_count], kLanes, 0u);
-    _first = UnclearedArray<uint32_t>(s.buckets + 1);
     _first[s.buckets] = static_cast<uint32_t>(_count);
-    std::vector<std::vector<Range>> denseCells(kParts);
-    workers.forEach(kParts, [&](std::size_t part) { denseCells[part] = sortPart(s, part); });
 
     std::vector<Range> all;
     for (const auto& list : denseCells)

@@ -107,6 +107,16 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     }
 }
 
+/// Lets all threads touch the pages of memory that the list has reserved. The system clears a page
+/// when it is first written, and for one thread that is more work than the rest of the list.
+static void touchReserved(std::vector<Photon>& photons, const Workers& workers)
+{
+    constexpr std::size_t kPage = 4096;
+    auto* const bytes = reinterpret_cast<volatile char*>(photons.data());
+    workers.forEach(photons.capacity() * sizeof(Photon) / kPage,
+                    [&](std::size_t page) { bytes[page * kPage] = 0; });
+}
+
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
                            const Workers& workers, const PhotonGuide* photonGuide)
@@ -150,6 +160,8 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
         for (const uint32_t bin : chunks[c].bins)
             if (bin != kInvalid) ++result.emitted[bin];
     }
+    result.photons.reserve(begin[count]);
+    touchReserved(result.photons, workers);
     result.photons.resize(begin[count]);
     workers.forEach(count,
                     [&](std::size_t c)

@@ -74,6 +74,25 @@ double millions(std::size_t rays, double seconds)
     return static_cast<double>(rays) / seconds * 1e-6;
 }
 
+/// Adds how many times as fast all threads are as one: for bare rays, which tell what the machine
+/// has, for ours, and the ratio of the two.
+template <class BareRays>
+void measureThreads(const std::string& name, const BareRays& bare, FrameSource& all,
+                    FrameSource& alone, const Workers& workers, Rows& rows)
+{
+    if (workers.threads() == 1) return;
+    const Workers one(1);
+    const std::string threads = std::to_string(workers.threads()) + " threads / 1";
+    const PairedTimes bareTimes = timePair(
+        kRuns, [&] { bare(one); }, [&] { bare(workers); });
+    const PairedTimes ours = timePair(
+        kRuns, [&] { alone.frame(); }, [&] { all.frame(); });
+    rows.push_back({name + ": bare rays, " + threads, bareTimes.ratio, "times"});
+    rows.push_back({name + ": " + threads, ours.ratio, "times", Goal::AtLeast,
+                    workers.threads() == 2 ? 1.9 : 0.0});
+    rows.push_back({name + ": " + threads + ", of bare rays'", ours.ratio / bareTimes.ratio, ""});
+}
+
 void measureFrame(const std::string& name, const BenchScene& bench, double goal, Rows& rows)
 {
     RenderOptions options;
@@ -91,12 +110,9 @@ void measureFrame(const std::string& name, const BenchScene& bench, double goal,
     rows.push_back({name + ": whole frame", times.second * 1e3, "ms"});
     rows.push_back({name + ": frame / bare", times.ratio, "of bare rate", Goal::AtLeast, goal});
 
-    auto one = std::make_shared<Workers>(1);
-    FrameSource alone(bench, options, one, recorded.traced);
-    const PairedTimes threads = timePair(
-        kRuns, [&] { alone.frame(); }, [&] { source.frame(); });
-    rows.push_back({name + ": " + std::to_string(workers->threads()) + " threads / 1",
-                    threads.ratio, "times", Goal::AtLeast, workers->threads() == 2 ? 1.9 : 0.0});
+    FrameSource alone(bench, options, std::make_shared<Workers>(1), recorded.traced);
+    const auto bareRays = [&](const Workers& on) { bare.trace(on); };
+    measureThreads(name, bareRays, source, alone, *workers, rows);
 }
 
 void measurePath(const std::string& name, const BenchScene& bench, double goal, Rows& rows)
@@ -114,6 +130,10 @@ void measurePath(const std::string& name, const BenchScene& bench, double goal, 
     rows.push_back({name + ": bare single rays", millions(rays, times.first), "Mrays/s"});
     rows.push_back({name + ": path tracing, 5 bounces", millions(rays, times.second), "Mrays/s"});
     rows.push_back({name + ": path / bare", times.ratio, "of bare rate", Goal::AtLeast, goal});
+
+    FrameSource alone(bench, options, std::make_shared<Workers>(1), recorded.traced);
+    const auto bareRays = [&](const Workers& on) { traceSingly(recorded.rays, on); };
+    measureThreads(name, bareRays, source, alone, *workers, rows);
 }
 
 } // namespace

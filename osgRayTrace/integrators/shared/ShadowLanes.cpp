@@ -44,13 +44,14 @@ LaneMask quadLanes(const Quad& quad, float pmf, const LightReceivers& receivers,
 }
 
 OSGRAYTRACE_KERNEL
-LaneMask nearLanes(const RectangleLight& light, const SurfaceLanes& surface)
+LaneMask nearLanes(const RectangleLight& light, const SurfaceLanes& surface, float leastAngle)
 {
     const RectangleLight rectangle = light;
+    const float least = leastAngle;
     LaneMask near = 0;
     OSGRAYTRACE_SIMD_OR(near)
     for (int i = 0; i < kLanes; ++i)
-        near |= bitOfLane(mayBeWide(rectangle, plainOf(surface.position, i)), i);
+        near |= bitOfLane(mayExceed(rectangle, plainOf(surface.position, i), least), i);
     return near;
 }
 
@@ -114,7 +115,7 @@ bool meshLane(const PassContext& context, uint32_t light, float pmf,
 } // namespace
 
 void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
-                    const LightReceivers& receivers, LightLanes& samples)
+                    const LightReceivers& receivers, LightLanes& samples, float leastAngle)
 {
     OSGRAYTRACE_ASSERT(index < context.lights->size());
     const Light& light = (*context.lights)[index];
@@ -125,7 +126,7 @@ void areaLightLanes(const PassContext& context, uint32_t index, float pmf,
         const Quad quad = quadOf(light, table, index);
         const RectangleLight* rectangle = table.rectangle(index);
         const bool near =
-            rectangle && (nearLanes(*rectangle, receivers.surface) & receivers.active);
+            rectangle && (nearLanes(*rectangle, receivers.surface, leastAngle) & receivers.active);
         samples.lit = near ? rectangleLanes(quad, *rectangle, pmf, receivers, transmissive, samples)
                            : quadLanes(quad, pmf, receivers, transmissive, samples);
         return;

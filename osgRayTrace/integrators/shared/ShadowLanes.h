@@ -20,9 +20,12 @@ struct LightReceivers
 
 /// Sets samples at point (u, v) of area light number light for the active receivers. Lanes whose
 /// geometric normal faces away from the light are left out unless throughSurface has them. pmf is
-/// the probability with which each lane chose this light.
+/// the probability with which each lane chose this light. leastAngle: rectangles that no lane sees
+/// under so much are sampled by area [sr]; a greater one saves time, but samples then have other
+/// densities than LightTable tells.
 void areaLightLanes(const PassContext& context, uint32_t light, float pmf,
-                    const LightReceivers& receivers, LightLanes& samples);
+                    const LightReceivers& receivers, LightLanes& samples,
+                    float leastAngle = kWideAngle);
 
 /// Sets samples as areaLightLanes does, of a directional, point or spot light. u and v are not read
 /// if the light has no size.

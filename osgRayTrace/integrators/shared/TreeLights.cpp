@@ -45,7 +45,7 @@ OSGRAYTRACE_INLINE uint32_t emitterLane(const LightEmitter& e, float inversePmf,
 OSGRAYTRACE_INLINE uint32_t nearLane(const LightEmitter& e, const SurfaceLanes& surface, int i)
 {
     const uint32_t rectangle = 0u - ((e.flags / kRectangle) & 1u);
-    return rectangle & mayBeWide(rectangleLight(e), plainOf(surface.position, i));
+    return rectangle & mayExceed(rectangleLight(e), plainOf(surface.position, i), kWideAngle);
 }
 
 OSGRAYTRACE_KERNEL
