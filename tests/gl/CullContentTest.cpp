@@ -11,6 +11,7 @@
 #include <osg/Depth>
 #include <osg/LOD>
 #include <osg/Light>
+#include <osg/Point>
 #include <osg/Program>
 #include <osg/Projection>
 #include <osg/Texture2D>
@@ -251,12 +252,18 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
         };
         levels->addChild(new Animation, 0.0f, 1e6f);
         levels->getChild(0)->asGroup()->addChild(content);
+        const osg::ref_ptr<EffectGeode> lights = new EffectGeode; // OSG draws them
+        lights->addDrawable(plainSquare(0.2f).get());
+        lights->effect = new osg::StateSet;
+        lights->effect->setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE));
+        levels->getChild(0)->asGroup()->addChild(raised(lights.get(), 0.9f));
         View view(inLevels ? levels.get() : content->asGroup(), setup);
         view.viewer.frames(3);
         content->setMatrix(osg::Matrix::translate(0.6, 0.1, 0.6));
         view.viewer.frames(2); // the values of arrays are known from here
         const uint64_t conversions = view.conversions();
         content->setMatrix(osg::Matrix::translate(0.7, 0.2, 0.6));
+        lights->getOrCreateStateSet()->setAttribute(new osg::Point(2.0f));
         view.viewer.frames(1);
         CHECK(view.conversions() == conversions);
         checkPicture(view, setup);

@@ -195,13 +195,14 @@ private:
 
     void enter(osg::Node& node)
     {
+        const bool shapes = _shapes, states = _states;
+        if (isFollowed(node)) _shapes = _states = false;
         _hasher.addObject(&node);
         _hasher.addObject(node.getCullCallback());
         addOwnState(node);
-        const bool shapes = _shapes;
-        _shapes = shapes && !isFollowed(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
         _shapes = shapes;
+        _states = states;
         _hasher.add(kEnd);
     }
 
@@ -236,6 +237,7 @@ private:
     {
         _hasher.add(ownHint(node));
         if (_hasViewMasks) _hasher.add(node.getNodeMask());
+        if (!_states) return;
         const osg::StateSet* stateSet = node.getStateSet();
         _hasher.addObject(stateSet);
         if (!stateSet) return;
@@ -259,7 +261,8 @@ private:
     osg::Vec3d _eye;
     std::optional<ReferenceView> _view;
     std::shared_ptr<const ShaderReads> _reads;
-    bool _shapes = true;
+    bool _shapes = true; ///< false: arrays, bounds and transforms are left out
+    bool _states = true;
     const std::unordered_set<const osg::Node*>* _followed = nullptr;
     bool _hasViewMasks; ///< whether node masks hide from some views alone
     ReferenceCullStack _cullStack;

@@ -25,8 +25,8 @@ class BufferVersions;
 /// read. sceneFromLocal belongs to the place of root. kept is as in Hasher. versions stand for the
 /// modified counts of arrays and primitive sets, so that equal values are no change; this is
 /// slower. Nodes beyond budget go unseen; null: the call has a budget of its own. Of the followed
-/// nodes and what is below them the structure alone counts, see structureHash(), unless they have
-/// special nodes.
+/// nodes and what is below them, nodes, masks and hints alone count, unless they have special
+/// nodes.
 uint64_t graphHash(osg::Node& root, const ViewingConditions& conditions,
                    const osg::Matrixd& sceneFromLocal = osg::Matrixd(), KeptObjects* kept = nullptr,
                    BufferVersions* versions = nullptr, PathBudget* budget = nullptr,
