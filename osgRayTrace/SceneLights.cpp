@@ -3,6 +3,7 @@
 #include <osgRayTrace/SceneLights>
 
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/TracedLight>
 
 #include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
@@ -32,7 +33,8 @@ public:
 
     void apply(osg::LightSource& source) override
     {
-        if (source.getLight()) used.insert(source.getLight()->getLightNum());
+        const osg::Light* light = source.getLight();
+        if (light && !dynamic_cast<const TracedLight*>(light)) used.insert(light->getLightNum());
         traverse(source);
     }
     using osg::NodeVisitor::apply;

@@ -66,13 +66,14 @@ osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file)
     return path;
 }
 
-Placement placementOn(const osg::AnimationPath& path, double seconds, double fovyDegrees)
+Placement placementOn(const osg::AnimationPath& path, double seconds, double after,
+                      double fovyDegrees)
 {
     const double period = path.getPeriod();
     // A path that is at its end is not at its beginning yet.
     const double within = period > 0.0 && seconds > period ? std::fmod(seconds, period) : seconds;
     osg::AnimationPath::ControlPoint point;
-    path.getInterpolatedControlPoint(path.getFirstTime() + std::min(within, period), point);
+    path.getInterpolatedControlPoint(path.getFirstTime() + std::min(within + after, period), point);
     Placement placement;
     placement.fovyDegrees = fovyDegrees;
     placement.eye = point.getPosition();

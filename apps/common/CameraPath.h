@@ -15,9 +15,10 @@ namespace osgRayTrace::app
 /// a rotation. Throws Failure(kCannotLoad).
 osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file);
 
-/// Returns the placement on a path, seconds after its beginning. The path begins anew after its
-/// end, as in osgviewer.
-Placement placementOn(const osg::AnimationPath& path, double seconds, double fovyDegrees);
+/// Returns the placement on a path, seconds after its beginning and `after` more, for moments of a
+/// frame. The path begins anew after its end, as in osgviewer, but not within a frame.
+Placement placementOn(const osg::AnimationPath& path, double seconds, double after,
+                      double fovyDegrees);
 
 /// Returns a placement that has gone around an axis, anticlockwise seen from its tip.
 Placement turned(const Placement& placement, const osg::Vec3d& pivot, const osg::Vec3d& axis,

@@ -52,7 +52,8 @@ Camera cameraOf(const Options& options, osg::Node& scene, const Placement& home)
 {
     if (options.cameraPath)
     {
-        const Placement place = placementOn(*options.cameraPath, options.at, kOsgViewerFovyDegrees);
+        const Placement place = placementOn(*options.cameraPath, options.at - options.afterFrame,
+                                            options.afterFrame, kOsgViewerFovyDegrees);
         return cameraAt(withOptions(place, options.view), scene, options.aspect());
     }
     const std::optional<Placement> chosen = chosenPlacement(options, scene, home);

@@ -292,7 +292,8 @@ std::optional<Options> parseOptions(int argc, char** argv)
 {
     Options options;
     options.settings = new RayTraceSettings;
-    options.lights.readVariables();
+    const bool merges = std::find(argv, argv + argc, std::string("--merge")) != argv + argc;
+    if (!merges) options.lights.readVariables(); // parts have the light that they were made with
     RawOptions raw;
 
     CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",

@@ -54,6 +54,7 @@ struct Options
     SceneLights lights; ///< beside those of the models
 
     double at = 0.0;                  ///< time that the scene is shown at [s]
+    double afterFrame = 0.0;          ///< how much later that is than the frame's own time [s]
     std::optional<FrameRange> frames; ///< nothing: one picture
     double framesPerSecond = 25.0;
     bool skipsExisting = false; ///< frames whose files are there are not rendered

@@ -21,7 +21,8 @@ void openShutter(const Options& options, TimedScene& shown, Renderer& renderer)
         [&options, &shown, &renderer](double moment)
         {
             Options then = options;
-            then.at = options.at + moment * options.shutter;
+            then.afterFrame = moment * options.shutter;
+            then.at = options.at + then.afterFrame;
             shown.clock.goTo(then.at);
             const Camera camera = cameraOf(then, *shown.scene, shown.home);
             renderer.setViewMatrix(camera.view);

@@ -78,7 +78,7 @@ std::vector<std::string> commandLine(const std::string& name, const std::string&
             "-f",
             format,
             "-y",
-            file};
+            "file:" + file}; // a name with a colon is no protocol
 }
 
 /// Sets the attributes with which a child is not stopped by the terminal's Ctrl-C: it is to finish

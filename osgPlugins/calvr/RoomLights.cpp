@@ -42,7 +42,7 @@ void assign(osg::Light& to, const osg::Light& from)
 
 osg::ref_ptr<osg::Light> placedLight(const osg::Light& light, const osg::Matrixd& hereFromThere)
 {
-    const osg::ref_ptr<osg::Light> placed = new osg::Light(light);
+    const osg::ref_ptr<osg::Light> placed = osg::clone(&light);
     placed->setPosition(osg::Vec4(osg::Vec4d(light.getPosition()) * hereFromThere));
     osg::Vec3d direction =
         osg::Matrixd::transform3x3(osg::Vec3d(light.getDirection()), hereFromThere);
@@ -95,7 +95,8 @@ void RoomLights::update(const osg::Group& room, const osg::Matrixd& belowFromRoo
             placedLight(*source->getLight(), withEye ? osg::Matrixd() : belowFromRoom);
         if (copy->getReferenceFrame() != source->getReferenceFrame())
             copy->setReferenceFrame(source->getReferenceFrame());
-        if (!copy->getLight() || copy->getLight()->getLightNum() != placed->getLightNum())
+        if (!copy->getLight() || !copy->getLight()->isSameKindAs(placed) ||
+            copy->getLight()->getLightNum() != placed->getLightNum())
             copy->setLight(placed);
         else if (copy->getLight()->compare(*placed) != 0)
         {

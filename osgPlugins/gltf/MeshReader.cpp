@@ -230,7 +230,9 @@ MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weight
     if (tangents)
         morph->setVertexAttribArray(kTangentAttribute, tangents.get(), osg::Array::BIND_PER_VERTEX);
     morph->setMethod(osgAnimation::MorphGeometry::RELATIVE);
-    bool normals = vertices.normals != nullptr;
+    const bool normals =
+        vertices.normals && std::all_of(vertices.targets.begin(), vertices.targets.end(),
+                                        [](const MorphTarget& t) { return t.normals.valid(); });
     for (std::size_t i = 0; i < vertices.targets.size(); ++i)
     {
         const MorphTarget& target = vertices.targets[i];
@@ -241,11 +243,10 @@ MeshReader::morphed(const Primitive& primitive, const std::vector<float>& weight
         if (target.tangents)
             geometry->setVertexAttribArray(kTangentAttribute, target.tangents.get(),
                                            osg::Array::BIND_PER_VERTEX);
-        normals = normals && target.normals;
         const float shift = valueOr0(shifts, i);
         morph->addMorphTarget(geometry.get(), valueOr0(weights, i) + shift);
         subtract(target.positions, shift, positions.get());
-        subtract(target.normals, shift, normalsAtRest.get());
+        if (normals) subtract(target.normals, shift, normalsAtRest.get());
         subtract(target.tangents, shift, tangents.get());
     }
     morph->setMorphNormals(normals);

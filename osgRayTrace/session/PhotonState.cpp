@@ -192,6 +192,7 @@ int PhotonState::sharedPasses() const
     if (_idle || !(_largest > 0.0f)) return 0;
     if (_ended) return PhotonPasses::kFirst;
     if (!_planes.empty()) return kChoosingPasses;
+    if (!_carried.empty()) return PhotonPasses::kFirst; // they decide whether photons end
     return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
 }
 
