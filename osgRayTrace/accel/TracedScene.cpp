@@ -340,11 +340,8 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.intersector =
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
-    if (built.traits.media)
-    {
-        const Box box = boundsOf(top);
-        built.media = MediumTable(*built.scene, box.low, box.high);
-    }
+    const Box box = boundsOf(top);
+    if (built.traits.media) built.media = MediumTable(*built.scene, box.low, box.high);
 
     BuildStatistics& statistics = built.statistics;
     statistics.builtMeshes = counts.built;
