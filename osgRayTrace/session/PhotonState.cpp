@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace osgRayTrace::engine
@@ -149,9 +150,8 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     for (float* radius : {&_least, &_largest})
         *radius = std::clamp(*radius, _floor, ceiling);
-    // Sums over cells are rounded differently if the cells differ. The sums of all views should be
-    // the same, though the views' pixels differ, so the first cells are those of the photons'
-    // density. Cells a few times too small cost little.
+    // Other cells round sums differently, and the sums of all views should be the same: the first
+    // cells are those of the photons' density. Cells a few times too small cost little.
     _cellRadius =
         wanted > 0.0f || !(density.radius > 0.0f) ? _largest : std::max(density.radius, _floor);
     while (2.0f * _cellRadius < _largest)
@@ -275,9 +275,8 @@ FootprintBiases PhotonState::footprintBiases(int passes) const
 void PhotonState::endIfUnneeded()
 {
     if (_carried.empty()) return;
-    double sum = 0.0;
-    for (const double tile : _carried)
-        sum += tile / static_cast<double>(_carried.size());
+    const double sum = std::accumulate(_carried.begin(), _carried.end(), 0.0) /
+                       static_cast<double>(_carried.size());
     _ended = sum < PhotonPasses::kFirst * kLeastCarried;
     if (_ended) _pass.reset();
     std::vector<double>().swap(_carried);
