@@ -14,6 +14,7 @@
 #include <osg/Point>
 #include <osg/Program>
 #include <osg/Projection>
+#include <osg/Switch>
 #include <osg/Texture2D>
 #include <osgUtil/SceneView>
 #include <osgViewer/Renderer>
@@ -256,7 +257,11 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
         lights->addDrawable(plainSquare(0.2f).get());
         lights->effect = new osg::StateSet;
         lights->effect->setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE));
-        levels->getChild(0)->asGroup()->addChild(raised(lights.get(), 0.9f));
+        const osg::ref_ptr<osg::Switch> flashing = new osg::Switch;
+        flashing->setCullCallback(new StatePusher(unlitColor(kRed), unlitColor(kRed)));
+        flashing->addChild(raised(lights.get(), 0.9f));
+        flashing->addChild(new osg::Group, false);
+        levels->getChild(0)->asGroup()->addChild(flashing);
         View view(inLevels ? levels.get() : content->asGroup(), setup);
         view.viewer.frames(3);
         content->setMatrix(osg::Matrix::translate(0.6, 0.1, 0.6));
@@ -264,6 +269,7 @@ TEST_CASE("cull content: a cull visitor of the application's", "[gl][cull]")
         const uint64_t conversions = view.conversions();
         content->setMatrix(osg::Matrix::translate(0.7, 0.2, 0.6));
         lights->getOrCreateStateSet()->setAttribute(new osg::Point(2.0f));
+        flashing->setValue(1, true);
         view.viewer.frames(1);
         CHECK(view.conversions() == conversions);
         checkPicture(view, setup);

@@ -196,13 +196,19 @@ private:
     void enter(osg::Node& node)
     {
         const bool shapes = _shapes, states = _states;
-        if (isFollowed(node)) _shapes = _states = false;
+        const TraversalMode mode = getTraversalMode();
+        if (isFollowed(node))
+        {
+            _shapes = _states = false;
+            setTraversalMode(TRAVERSE_ALL_CHILDREN); // of a sequence, another is active each time
+        }
         _hasher.addObject(&node);
         _hasher.addObject(node.getCullCallback());
         addOwnState(node);
         if (getNodePath().size() < kDeepestPath && _budget.take()) traverse(node);
         _shapes = shapes;
         _states = states;
+        setTraversalMode(mode);
         _hasher.add(kEnd);
     }
 
