@@ -1,5 +1,4 @@
-// PhotonState.cpp - the state of photon mapping that a view keeps from pass to pass. Layer:
-// session.
+// PhotonState.cpp - photon mapping's state that a view keeps from pass to pass. Layer: session.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/PhotonState.h"
 #include "osgRayTrace/integrators/IntegratorFactory.h"
