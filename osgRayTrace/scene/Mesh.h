@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/SharedArray.h"
 #include "osgRayTrace/scene/TextureMapping.h"
 
@@ -42,10 +43,10 @@ struct Mesh
 /// Returns the texture coordinates of a set, which may be empty.
 inline const SharedArray<Vec2>& uvsOfSet(const Mesh& mesh, uint32_t set)
 {
-    static const SharedArray<Vec2> none;
+    static const NeverDestroyed<SharedArray<Vec2>> none;
     if (set < kFirstMoreUvs) return set == 0 ? mesh.uvs : mesh.uvs1;
     const std::size_t more = set - kFirstMoreUvs;
-    return more < mesh.moreUvs.size() ? mesh.moreUvs[more] : none;
+    return more < mesh.moreUvs.size() ? mesh.moreUvs[more] : *none;
 }
 
 /// Places a mesh in the scene with a material. A scene may hold very many instances, so that there

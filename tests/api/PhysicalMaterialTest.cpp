@@ -154,11 +154,11 @@ TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them"
     material->setNormalScale(-20.0f);
     CHECK(material->getNormalScale() == -16.0f);
     PhysicalMaterial::TexturePlace place;
-    place.unit = 5;
+    place.unit = 9;
     place.offset.set(std::numeric_limits<float>::quiet_NaN(), 2.0f);
     material->setTexturePlace(PhysicalMaterial::NORMAL_TEXTURE, place);
     const auto& kept = material->getTexturePlace(PhysicalMaterial::NORMAL_TEXTURE);
-    CHECK(kept.unit == 1);
+    CHECK(kept.unit == 7);
     CHECK(kept.offset == osg::Vec2(0.0f, 2.0f));
     CHECK(kept.scale == osg::Vec2(1.0f, 1.0f));
     CHECK(material->getTexturePlace(PhysicalMaterial::EMISSION_TEXTURE).unit == 0);

@@ -14,8 +14,8 @@ void addHalfSky(SceneBuilder& builder, bool above)
     Light sky;
     sky.kind = LightKind::Environment;
     sky.radiance = Vec3(1.0f);
-    sky.environment.image =
-        newEnvironment(16, 8, [above](Vec3d d) { return Vec3(d.z > 0.0 == above ? 1.0f : 0.0f); });
+    sky.environment.image = newEnvironment(
+        16, 8, [above](Vec3d d) { return Vec3((d.z > 0.0) == above ? 1.0f : 0.0f); });
     builder.addLight(sky);
 }
 
