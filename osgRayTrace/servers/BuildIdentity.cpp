@@ -11,15 +11,25 @@ namespace osgRayTrace::engine
 namespace
 {
 
+// Compilers round alike only if they choose the same instructions.
+#if defined(__clang__)
+constexpr const char* kCompiler = "Clang " __clang_version__;
+#elif defined(__GNUC__)
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#else
+constexpr const char* kCompiler = "another compiler";
+#endif
+
 /// Counts the forms that messages have had.
-constexpr int kMessages = 1;
+constexpr int kMessages = 2;
 
 } // namespace
 
 std::string buildIdentity()
 {
     return std::string("osgRayTrace " OSGRAYTRACE_PROJECT_VERSION " (messages ") +
-           std::to_string(kMessages) + "), Embree " + embreeVersion() + ", " + cpuLevel();
+           std::to_string(kMessages) + "), Embree " + embreeVersion() + ", " + cpuLevel() + ", " +
+           kCompiler + ", " OSGRAYTRACE_BUILD_TYPE;
 }
 
 } // namespace osgRayTrace::engine

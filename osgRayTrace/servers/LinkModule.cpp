@@ -26,7 +26,8 @@ OpenLink loadModule()
         return nullptr;
     const std::string library = here.dli_fname;
     const std::size_t slash = library.rfind('/');
-    const std::string folder = slash == std::string::npos ? "." : library.substr(0, slash);
+    if (slash == std::string::npos) return nullptr; // never from the working directory
+    const std::string folder = library.substr(0, slash);
     void* module = dlopen((folder + "/osgRayTrace/zmq.so").c_str(), RTLD_NOW | RTLD_LOCAL);
     return module ? reinterpret_cast<OpenLink>(dlsym(module, "osgRayTraceOpenLink")) : nullptr;
 #else

@@ -18,6 +18,12 @@ namespace
 
 constexpr double kAskInterval = 1.0;   ///< [s]
 constexpr double kHelloInterval = 0.3; ///< [s]
+/// A server that has tiles and says nothing for so long is silent [s]; one that prepares scenes
+/// for other views may take as long as it took for the last one of this viewer.
+constexpr double kSilence = 1.0;
+constexpr double kUnreached = 5.0;  ///< [s]
+constexpr double kAskAgain = 30.0;  ///< after a refusal [s]
+constexpr double kLeastTime = 1e-7; ///< of a tile [s]: what a server tells is not trusted
 /// Scenes from this size on [bytes] are awaited; what is smaller is mostly prepared within a frame.
 constexpr std::size_t kLargeScene = std::size_t(1) << 20;
 /// The server keeps so many scenes of a viewer: see TileServer.
@@ -25,6 +31,8 @@ constexpr std::size_t kScenes = 2, kPhotonPasses = 8;
 /// A server has tiles for so long, beside the time that messages take [s].
 constexpr double kAhead = 0.004;
 constexpr int kMostTiles = 1024;
+/// So many at most if it has very many threads: see TileServer::kMostQueued.
+constexpr int kMostOfAll = 4096;
 
 /// Moves a mean towards a value: fast at first, and faster to slowness than to speed.
 void follow(double& mean, double value)
@@ -41,7 +49,7 @@ RemoteServer::RemoteServer(std::string address, std::unique_ptr<Link> link)
 
 RemoteServer::~RemoteServer()
 {
-    if (isIn()) _link->send(plainMessage(MessageKind::Bye));
+    if (_state == State::In) _link->send(plainMessage(MessageKind::Bye));
 }
 
 bool RemoteServer::send(const Bytes& message)
@@ -53,12 +61,15 @@ bool RemoteServer::send(const Bytes& message)
 
 void RemoteServer::tend(double now)
 {
-    const bool asks = isIn() && _awaitedScene != 0 && now - _heard > kAskInterval;
+    const bool waits = _state == State::In && (_silent || _awaitedScene != 0);
+    const bool asks = waits && now - _heard > kAskInterval;
     if (asks && now - _helloAt > kAskInterval)
     {
         _helloAt = now;
         send(dropMessage(0)); // a process that has taken the server's place answers Stranger
     }
+    if (_state == State::Refused && _asksAgain && now - _refusedAt > kAskAgain) _state = State::Out;
+    if (_firstTended < 0.0) _firstTended = now;
     if (_state != State::Out || now - _helloAt < kHelloInterval) return;
     _helloAt = now;
     _link->send(messageOf(Hello{++_hellos, buildIdentity()}));
@@ -76,6 +87,7 @@ void RemoteServer::leave()
     _photons.clear();
     _groups.clear();
     _given = 0;
+    _silent = false;
 }
 
 void RemoteServer::refuse(const std::string& reason)
@@ -83,11 +95,33 @@ void RemoteServer::refuse(const std::string& reason)
     leave();
     _state = State::Refused;
     _refusal = reason;
+    _asksAgain = false;
+}
+
+bool RemoteServer::isUnreached(double now) const
+{
+    return _state == State::Out && !_wasHeard && now - _firstTended > kUnreached;
+}
+
+/// Lets a server be silent that has tiles. Its scenes stay: it may be busy with those of others.
+bool RemoteServer::checkSilence(double now)
+{
+    if (!isIn() || _groups.empty() || _awaitedScene != 0) return false;
+    const double since = std::max(_heard, _groups.front().sent);
+    _silent = now - since > kSilence + 2.0 * _sceneSeconds;
+    return _silent;
+}
+
+void RemoteServer::hear(double now)
+{
+    _heard = now;
+    _wasHeard = true;
+    _silent = false;
 }
 
 bool RemoteServer::take(MessageKind kind, WireReader& in, double now)
 {
-    _heard = now;
+    hear(now);
     if (kind == MessageKind::Welcome)
     {
         Welcome welcome;
@@ -95,6 +129,7 @@ bool RemoteServer::take(MessageKind kind, WireReader& in, double now)
         // Older hellos may have been answered by a process that is gone.
         if (_state != State::Out || welcome.number < _firstHello) return true;
         _state = State::In;
+        _refusal.clear();
         _threads = static_cast<int>(welcome.threads);
         _sender = std::make_unique<SceneSender>();
         return true;
@@ -104,6 +139,8 @@ bool RemoteServer::take(MessageKind kind, WireReader& in, double now)
         Refusal refusal;
         if (!takeMessage(in, refusal)) return false;
         refuse(refusal.reason);
+        _asksAgain = !refusal.lasts;
+        _refusedAt = now;
         return true;
     }
     if (kind == MessageKind::Ready)
@@ -111,6 +148,9 @@ bool RemoteServer::take(MessageKind kind, WireReader& in, double now)
         Ready ready;
         if (!takeMessage(in, ready)) return false;
         _readyScene = std::max(_readyScene, ready.scene);
+        for (const SentScene& sent : _scenes)
+            if (sent.number == ready.scene)
+                _sceneSeconds = std::min(ready.seconds, std::max(now - sent.sent, 0.0));
         if (_awaitedScene <= _readyScene) _awaitedScene = 0;
         return true;
     }
@@ -131,7 +171,7 @@ RemoteServer::sceneNumber(const std::shared_ptr<const TracedScene>& scene) const
     return std::nullopt;
 }
 
-void RemoteServer::prepareScene(const std::shared_ptr<const TracedScene>& scene)
+void RemoteServer::prepareScene(const std::shared_ptr<const TracedScene>& scene, double now)
 {
     const auto isIt = [&](const SentScene& sent) { return sent.scene.lock() == scene; };
     const bool has = std::any_of(_scenes.begin(), _scenes.end(), isIt);
@@ -140,7 +180,7 @@ void RemoteServer::prepareScene(const std::shared_ptr<const TracedScene>& scene)
     const uint64_t number = ++_sceneNumbers;
     if (!send(sceneMessage(number, bytes))) return;
     if (_scenes.size() >= kScenes) _scenes.pop_front();
-    _scenes.push_back({scene, number});
+    _scenes.push_back({scene, number, now});
     if (_readyScene == 0 || bytes.size() >= kLargeScene) _awaitedScene = number;
 }
 
@@ -180,7 +220,7 @@ bool RemoteServer::sendTiles(PassOrder& order, Group group, std::vector<TilePhot
 
 std::optional<RemoteServer::Group> RemoteServer::takeGroup(const TracedTiles& head, double now)
 {
-    _heard = now;
+    hear(now);
     const auto found = std::find_if(_groups.begin(), _groups.end(),
                                     [&](const Group& group) { return group.number == head.group; });
     if (found == _groups.end() || found->pass != head.pass) return std::nullopt;
@@ -189,11 +229,11 @@ std::optional<RemoteServer::Group> RemoteServer::takeGroup(const TracedTiles& he
     _groups.erase(found);
     const auto tiles = static_cast<int>(group.tiles.size());
     _given -= tiles;
-    if (head.seconds > 0.0 && tiles > 0) follow(_tileSeconds, head.seconds / tiles);
+    const double seconds = std::min(head.seconds, std::max(now - group.sent, 0.0));
+    if (seconds > 0.0 && tiles > 0) follow(_tileSeconds, std::max(seconds / tiles, kLeastTime));
     // What is left of the oldest group's time, after its own tracing, is that of messages; groups
     // that wait behind others would count their waiting, too.
-    if (isOldest && _groups.empty())
-        follow(_latency, std::max(now - group.sent - head.seconds, 1e-5));
+    if (isOldest && _groups.empty()) follow(_latency, std::max(now - group.sent - seconds, 1e-5));
     return group;
 }
 
@@ -212,10 +252,11 @@ double RemoteServer::speed() const
 
 int RemoteServer::credit() const
 {
-    if (_tileSeconds == 0.0) return 2 * _threads;
+    const int least = std::min(2 * _threads, kMostOfAll);
+    if (_tileSeconds == 0.0) return least;
     const double ahead = std::min(2.0 * _latency, 0.05) + kAhead;
     const double tiles = std::min(std::ceil(ahead / _tileSeconds), double(kMostTiles));
-    return std::max(static_cast<int>(tiles), 2 * _threads);
+    return std::max(static_cast<int>(tiles), least);
 }
 
 double RemoteServer::lateAfter(const Group& group) const

@@ -33,11 +33,12 @@ public:
     ~RemoteServer();
 
     const std::string& address() const { return _address; }
-    bool isIn() const { return _state == State::In; }
+    /// Returns whether the server may be given scenes and tiles.
+    bool isIn() const { return _state == State::In && !_silent; }
     const std::string& refusal() const { return _refusal; } ///< empty: it has not refused
 
-    /// Says hello to a server that is out, now and then, and asks one that prepares a scene for
-    /// long whether it is still there. now: [s], in all functions.
+    /// Says hello to a server that is out, now and then, and asks one that is silent, or prepares a
+    /// scene for long, whether it is still there. now: [s], in all functions.
     void tend(double now);
 
     /// Takes a message that has come, or returns false.
@@ -47,7 +48,7 @@ public:
     bool take(MessageKind kind, WireReader& in, double now);
 
     /// Makes sure that the server has the scene, or is about to have it, unless it is gone.
-    void prepareScene(const std::shared_ptr<const TracedScene>& scene);
+    void prepareScene(const std::shared_ptr<const TracedScene>& scene, double now);
 
     /// Returns the number of a scene that the server can trace now; nothing if it cannot.
     std::optional<uint64_t> sceneNumber(const std::shared_ptr<const TracedScene>& scene) const;
@@ -72,22 +73,28 @@ public:
     double lateAfter(const Group& group) const;
     const std::deque<Group>& groups() const { return _groups; }
 
-    /// Lets go of a server that does not answer: it is out until it says hello.
-    void leave();
+    /// Lets go of a server for good: it sends what makes no sense.
     void refuse(const std::string& reason);
-    double heard() const { return _heard; } ///< when the last message came
+
+    /// Returns whether hellos to the server have been in vain for seconds, since the first one.
+    bool isUnreached(double now) const;
+
+    /// Returns true once a server that has tiles says nothing for long: it is given none until it
+    /// speaks.
+    bool checkSilence(double now);
 
 private:
     enum class State
     {
         Out, ///< the server has not answered the last hello
         In,
-        Refused,
+        Refused, ///< for a while, if _asksAgain
     };
     struct SentScene
     {
         std::weak_ptr<const TracedScene> scene;
         uint64_t number = 0;
+        double sent = 0.0; ///< [s]
     };
 
     struct SentPhotons
@@ -96,6 +103,8 @@ private:
         uint64_t number = 0;
     };
 
+    void leave();
+    void hear(double now);
     bool send(const Bytes& message);
     bool sendPhotons(PassOrder& order);
 
@@ -106,7 +115,13 @@ private:
     uint64_t _hellos = 0;
     uint64_t _firstHello = 1; ///< since the server is out
     double _helloAt = -1e9;
-    double _heard = -1e9;
+    double _heard = -1e9; ///< when the last message came
+    bool _wasHeard = false;
+    bool _silent = false;    ///< while In: it has tiles, and has said nothing for long
+    bool _asksAgain = false; ///< while Refused
+    double _refusedAt = -1.0;
+    double _firstTended = -1.0;
+    double _sceneSeconds = 0.0; ///< time in which it prepared the last scene
     int _threads = 1;
     std::unique_ptr<SceneSender> _sender;
     std::deque<SentScene> _scenes;    ///< those that the server keeps, oldest first

@@ -128,9 +128,19 @@ const char* sceneFault(const Scene& scene)
     for (const Light& light : scene.lights)
     {
         const bool needsInstance = light.kind == LightKind::Mesh;
+        if (light.kind == LightKind::Environment && !light.environment.image)
+            return "an environment light has no image";
         if (!isIndex(light.instance, scene.instances.size()) ||
             (needsInstance && light.instance == kInvalid))
             return "a light names an instance that the scene lacks";
+    }
+    // Rays that meet an instance look its triangles up in the table of its light.
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        if (scene.instances[i].light == kInvalid) continue;
+        const Light& light = scene.lights[scene.instances[i].light];
+        const bool isArea = light.kind == LightKind::Mesh || light.kind == LightKind::Parallelogram;
+        if (!isArea || light.instance != i) return "an instance names a light that is not its own";
     }
     return nullptr;
 }

@@ -63,8 +63,11 @@ uint32_t SceneSender::arrayNumber(const SharedArray<T>& array,
     if (array.empty()) return 0;
     KnownArray& entry = _arrays[array.data()];
     const std::size_t bytes = array.size() * sizeof(T);
-    const bool known = entry.number != 0 && entry.bytes == bytes && !entry.holder.expired();
+    const uint64_t hash = memoryHash(array.data(), bytes);
+    const bool known =
+        entry.number != 0 && entry.bytes == bytes && entry.hash == hash && !entry.holder.expired();
     entry.holder = holder;
+    entry.hash = hash;
     if (known) return entry.number;
     entry.bytes = bytes;
     entry.number = ++_numbers;

@@ -43,6 +43,7 @@ private:
     {
         std::weak_ptr<const Mesh> holder; ///< while it lives, the address names the array
         std::size_t bytes = 0;
+        uint64_t hash = 0; ///< of its contents, which the host may have edited in place
         uint32_t number = 0;
     };
     struct MessageParts;

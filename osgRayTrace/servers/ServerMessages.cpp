@@ -6,6 +6,7 @@
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/servers/PhotonFields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -114,7 +115,9 @@ Bytes messageOf(const Welcome& welcome)
 Bytes messageOf(const Refusal& refusal)
 {
     Bytes bytes = begin(MessageKind::Refusal);
-    WireWriter(bytes).text(refusal.reason);
+    WireWriter out(bytes);
+    out.text(refusal.reason);
+    out(refusal.lasts);
     return bytes;
 }
 
@@ -224,6 +227,8 @@ bool takeMessage(WireReader& in, Refusal& refusal)
     constexpr std::size_t kLongest = 1000;
     if (in.left() > kLongest) return false;
     in.text(refusal.reason);
+    refusal.lasts = in.left() == 0; // of a build that does not tell, which is another one
+    if (in.left() > 0) in(refusal.lasts);
     return in.good();
 }
 
@@ -260,13 +265,13 @@ bool takeMessage(WireReader& in, PhotonList& list)
     return in.good() && finite;
 }
 
-bool takeMessage(WireReader& in, TileOrders& orders)
+bool takeMessage(WireReader& in, TileOrders& orders, std::size_t mostTiles)
 {
     constexpr std::size_t kMostTiles = 4096; // of a group; results take far more memory
     in(orders.pass, orders.group);
     in.array(orders.tiles);
     in(orders.hasPhotons);
-    if (!in.good() || orders.tiles.size() > kMostTiles) return false;
+    if (!in.good() || orders.tiles.size() > std::min(kMostTiles, mostTiles)) return false;
     orders.photons.clear();
     for (std::size_t i = 0; orders.hasPhotons && i < orders.tiles.size() && in.good(); ++i)
     {

@@ -55,6 +55,7 @@ struct Welcome
 struct Refusal
 {
     std::string reason;
+    bool lasts = false; ///< whether asking again is of no use: the builds differ
 };
 
 /// The bytes of a SceneSender follow.
@@ -125,7 +126,7 @@ bool takeMessage(WireReader& in, Refusal& refusal);
 bool takeMessage(WireReader& in, Ready& ready);
 bool takeMessage(WireReader& in, PassOrder& order);
 bool takeMessage(WireReader& in, PhotonList& list);
-bool takeMessage(WireReader& in, TileOrders& orders);
+bool takeMessage(WireReader& in, TileOrders& orders, std::size_t mostTiles);
 bool takeMessage(WireReader& in, TracedTiles& traced);
 
 /// Reads the next tile of such a message.

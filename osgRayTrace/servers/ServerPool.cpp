@@ -12,9 +12,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A server that has tiles and says nothing for so long [s] is out.
-constexpr double kSilence = 1.0;
-
 double steadySeconds()
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -79,20 +76,14 @@ public:
         isAwaited[index] = true;
         ++awaitedTiles;
     }
-    /// Tiles that come from nobody any more are late at once.
-    void lose(const std::vector<int32_t>& tiles)
-    {
-        lost.insert(lost.end(), tiles.begin(), tiles.end());
-    }
-
     PassOrder order;
     std::vector<bool> isAwaited; ///< by tile
     int awaitedTiles = 0;
-    std::vector<int32_t> lost; ///< among those that are awaited
     std::vector<Arrived> arrived;
 
 private:
     void bring(const Arrived& arrival);
+    std::vector<int32_t> lateTiles(double now) const;
 
     ServerPool& _pool;
     const SharedTiles& _tiles;
@@ -113,17 +104,20 @@ void ServerPool::Work::exchange()
         bring(arrival);
 }
 
-/// Hands tiles over to the session. What is damaged is awaited again, from nobody.
+/// Hands tiles over to the session. What is damaged, and what a server no longer had the pass for,
+/// is awaited again, from nobody.
 void ServerPool::Work::bring(const Arrived& arrival)
 {
     TracedTiles traced;
     WireReader in(arrival.message);
     MessageKind kind{};
     const HelpedPass& pass = order.pass;
-    bool good = takeKind(in, kind) && takeMessage(in, traced) && traced.depth == pass.wantsDepth &&
-                traced.surfaces == (pass.wantsDepth && pass.wantsSurfaces) &&
-                traced.samples == (pass.wantsDepth && pass.wantsSamples) &&
-                traced.photons == (pass.photons.pass != nullptr);
+    bool good = takeKind(in, kind) && takeMessage(in, traced);
+    const bool fits = traced.depth == pass.wantsDepth &&
+                      traced.surfaces == (pass.wantsDepth && pass.wantsSurfaces) &&
+                      traced.samples == (pass.wantsDepth && pass.wantsSamples) &&
+                      traced.photons == (pass.photons.pass != nullptr);
+    good = good && (fits || traced.tiles.empty());
     std::vector<int32_t> missing = arrival.tiles;
     TracedTile tile;
     for (std::size_t i = 0; good && i < traced.tiles.size(); ++i)
@@ -138,7 +132,6 @@ void ServerPool::Work::bring(const Arrived& arrival)
     _pool._traced += arrival.tiles.size() - missing.size();
     for (const int32_t lostTile : missing)
         await(lostTile);
-    lose(missing);
     if (!good)
     {
         arrival.server->refuse("it sends damaged tiles");
@@ -146,16 +139,35 @@ void ServerPool::Work::bring(const Arrived& arrival)
     }
 }
 
+/// Returns the tiles that servers have had for too long; and those that no server has, whatever has
+/// become of it: they come from nobody any more.
+std::vector<int32_t> ServerPool::Work::lateTiles(double now) const
+{
+    std::vector<int32_t> late;
+    std::vector<int32_t> given;
+    for (const auto& server : _pool._servers)
+        for (const RemoteServer::Group& group : server->groups())
+        {
+            if (group.pass != order.number) continue;
+            if (now > server->lateAfter(group))
+                late.insert(late.end(), group.tiles.begin(), group.tiles.end());
+            for (const int32_t tile : group.tiles)
+                if (isAwaited[static_cast<std::size_t>(tile)]) given.push_back(tile);
+        }
+    if (static_cast<int>(given.size()) == awaitedTiles) return late;
+    std::vector<bool> isLost = isAwaited;
+    for (const int32_t tile : given)
+        isLost[static_cast<std::size_t>(tile)] = false;
+    for (std::size_t tile = 0; tile < isLost.size(); ++tile)
+        if (isLost[tile]) late.push_back(static_cast<int32_t>(tile));
+    return late;
+}
+
 std::vector<int> ServerPool::Work::takeLate()
 {
     const std::lock_guard<std::mutex> lock(_pool._mutex);
     const double now = _pool._now();
-    std::vector<int32_t> late = std::exchange(lost, {});
-    for (const auto& server : _pool._servers)
-        for (const RemoteServer::Group& group : server->groups())
-            if (group.pass == order.number && now > server->lateAfter(group))
-                late.insert(late.end(), group.tiles.begin(), group.tiles.end());
-    const std::vector<int32_t> taken = takeAwaited(late);
+    const std::vector<int32_t> taken = takeAwaited(lateTiles(now));
     _pool.checkSilence(now);
     return {taken.begin(), taken.end()};
 }
@@ -184,7 +196,10 @@ std::unique_ptr<PassHelp> ServerPool::begin(const HelpedPass& pass, const Shared
         for (const auto& server : _servers)
         {
             server->tend(now);
-            server->prepareScene(pass.scene);
+            if (server->isUnreached(now))
+                addNote("server " + server->address() +
+                        " is not reached: does it run there, and do the keys fit?");
+            server->prepareScene(pass.scene, now);
             anybody = anybody || server->isIn();
         }
         if (anybody) _works[work->order.number] = work.get();
@@ -237,11 +252,8 @@ void ServerPool::receiveAll(double now)
                 takeTraced(*server, std::move(message), now);
             else
             {
-                const std::vector<RemoteServer::Group> groups(server->groups().begin(),
-                                                              server->groups().end());
                 if (!known || !server->take(kind, in, now))
                     server->refuse("it sends damaged messages");
-                if (server->groups().size() < groups.size()) loseGroups(groups);
                 if (!server->refusal().empty())
                     addNote("server " + server->address() + " does not help: " + server->refusal());
             }
@@ -264,29 +276,11 @@ void ServerPool::takeTraced(RemoteServer& server, Bytes&& message, double now)
         work->second->arrived.push_back({&server, std::move(message), std::move(tiles)});
 }
 
-/// Lets the passes trace themselves what a server that is gone was given.
-void ServerPool::loseGroups(const std::vector<RemoteServer::Group>& groups)
-{
-    for (const RemoteServer::Group& group : groups)
-    {
-        const auto work = _works.find(group.pass);
-        if (work != _works.end()) work->second->lose(group.tiles);
-    }
-}
-
 void ServerPool::checkSilence(double now)
 {
     for (const auto& server : _servers)
-    {
-        if (!server->isIn() || server->groups().empty()) continue;
-        const double since = std::max(server->heard(), server->groups().front().sent);
-        if (now - since <= kSilence) continue;
-        const std::vector<RemoteServer::Group> groups(server->groups().begin(),
-                                                      server->groups().end());
-        server->leave();
-        loseGroups(groups);
-        addNote("server " + server->address() + " does not answer: the others trace its tiles");
-    }
+        if (server->checkSilence(now))
+            addNote("server " + server->address() + " does not answer: the others trace its tiles");
 }
 
 /// Gives each server as many tiles as it may have. The last tiles of a pass go out in small groups,
@@ -328,13 +322,8 @@ void ServerPool::giveTiles(Work& work, RemoteServer& server, double speedShare, 
             work.await(tile);
         }
         if (group.tiles.empty()) return;
-        const std::vector<RemoteServer::Group> before(server.groups().begin(),
-                                                      server.groups().end());
-        const std::vector<int32_t> tiles = group.tiles;
-        if (server.sendTiles(work.order, std::move(group), work.photonsOf(tiles))) continue;
-        work.lose(tiles);
-        loseGroups(before);
-        return;
+        std::vector<TilePhotons> photons = work.photonsOf(group.tiles);
+        if (!server.sendTiles(work.order, std::move(group), std::move(photons))) return;
     }
 }
 

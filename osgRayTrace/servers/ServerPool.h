@@ -55,7 +55,6 @@ private:
     void takeTraced(RemoteServer& server, Bytes&& message, double now);
     void giveTiles(Work& work, double now);
     void giveTiles(Work& work, RemoteServer& server, double speedShare, double now);
-    void loseGroups(const std::vector<RemoteServer::Group>& groups);
     void checkSilence(double now);
 
     std::function<double()> _now;

@@ -65,6 +65,14 @@ struct TileServer::Viewer
     std::unordered_set<uint64_t> dropped;
     TileTracer tracer;
 
+    /// Returns how many tiles are in the queue.
+    std::size_t queued() const
+    {
+        std::size_t tiles = 0;
+        for (const TileOrders& group : groups)
+            tiles += std::max<std::size_t>(group.tiles.size(), 1);
+        return tiles;
+    }
     const PassOrder* findPass(uint64_t number) const
     {
         for (const PassOrder& pass : passes)
@@ -94,10 +102,10 @@ TileServer::TileServer(std::shared_ptr<Workers> workers, Send send, std::functio
 
 TileServer::~TileServer() = default;
 
-void TileServer::refuse(const std::string& name, const std::string& reason)
+void TileServer::refuse(const std::string& name, const std::string& reason, bool lasts)
 {
     _viewers.erase(name);
-    _send(name, messageOf(Refusal{reason}));
+    _send(name, messageOf(Refusal{reason, lasts}));
 }
 
 void TileServer::take(const std::string& name, const Bytes& message)
@@ -131,8 +139,8 @@ void TileServer::welcome(const std::string& name, const Bytes& message)
     Hello hello;
     if (!takeKind(in, kind) || !takeMessage(in, hello)) return refuse(name, "a hello is damaged");
     if (hello.identity != buildIdentity())
-        return refuse(name,
-                      "the server is " + buildIdentity() + ", the viewer is " + hello.identity);
+        return refuse(
+            name, "the server is " + buildIdentity() + ", the viewer is " + hello.identity, true);
     forgetSilent();
     if (_viewers.size() >= kMostViewers && !_viewers.count(name))
         return refuse(name, "the server has too many viewers");
@@ -185,8 +193,10 @@ bool TileServer::takeOrder(Viewer& viewer, const Bytes& message)
     }
     if (kind == MessageKind::Tiles)
     {
+        // What is too much is refused before the tiles' photons take memory.
+        const std::size_t queued = viewer.queued();
         TileOrders orders;
-        if (!takeMessage(in, orders)) return false;
+        if (queued >= kMostQueued || !takeMessage(in, orders, kMostQueued - queued)) return false;
         viewer.groups.push_back(std::move(orders));
         return true;
     }
@@ -218,6 +228,7 @@ bool TileServer::takeScene(Viewer& viewer, const uint8_t* data, std::size_t size
 
 bool TileServer::work()
 {
+    forgetSilent();
     // The viewers behind the last one, then those before it.
     Viewer* next = nullptr;
     for (const auto& [name, viewer] : _viewers)

@@ -39,6 +39,8 @@ public:
     /// back.
     static constexpr double kForgets = 600.0;
     static constexpr std::size_t kMostViewers = 64;
+    /// A viewer may have so many tiles in the queue, counting groups without tiles as one.
+    static constexpr std::size_t kMostQueued = 8192;
 
 private:
     struct Viewer;
@@ -47,7 +49,7 @@ private:
     bool takeOrder(Viewer& viewer, const Bytes& message);
     bool takeScene(Viewer& viewer, const uint8_t* data, std::size_t size, uint64_t number);
     void trace(Viewer& viewer);
-    void refuse(const std::string& name, const std::string& reason);
+    void refuse(const std::string& name, const std::string& reason, bool lasts = false);
     void forgetSilent();
 
     std::shared_ptr<Workers> _workers;

@@ -59,6 +59,7 @@ void SessionState::takePhotons(int tile, int pass, const TilePhotons& traced, fl
     std::copy(found.radius, found.radius + kTilePixels, gathered.radius);
     std::copy(found.count, found.count + kTilePixels, gathered.count);
     std::copy(found.flux, found.flux + kTilePixels, gathered.flux);
+    gathered.carried = found.carried;
     std::memcpy(gathered.differences, found.differences, sizeof gathered.differences);
     if (gathered.planes && gathered.choosesPlanes)
         std::copy(traced.planes.begin(), traced.planes.end(), gathered.planes);

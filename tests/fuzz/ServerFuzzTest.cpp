@@ -43,6 +43,40 @@ Bytes damaged(const Bytes& message, Dice& dice)
     return Bytes(text.begin(), text.end());
 }
 
+/// Adds an environment, and a lamp that fills the view of identity.
+void shine(Scene& scene)
+{
+    scene.lights[0].kind = LightKind::Environment;
+    auto mesh = std::make_shared<Mesh>();
+    mesh->positions = std::vector<Vec3>{Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)};
+    mesh->triangles = std::vector<UVec3>{UVec3(0, 1, 2), UVec3(0, 2, 1)};
+    Instance instance;
+    instance.mesh = static_cast<uint32_t>(scene.meshes.size());
+    instance.light = static_cast<uint32_t>(scene.lights.size());
+    Light light;
+    light.kind = LightKind::Mesh;
+    light.instance = static_cast<uint32_t>(scene.instances.size());
+    light.radiance = Vec3(1.0f);
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back(instance);
+    scene.lights.push_back(light);
+}
+
+/// Lets a light or an instance name what another one should: bytes at random seldom do.
+void mislead(Scene& scene, Dice& dice)
+{
+    const auto index = [&](std::size_t size)
+    { return dice.oneIn(3) ? kInvalid : static_cast<uint32_t>(dice.below(int(size))); };
+    Light& light = scene.lights[index(1) == kInvalid ? 0 : 1];
+    Instance& instance = scene.instances[index(1) == kInvalid ? 0 : 1];
+    light.instance = index(scene.instances.size());
+    instance.light = index(scene.lights.size());
+    instance.mesh = static_cast<uint32_t>(dice.below(int(scene.meshes.size())));
+    if (dice.oneIn(2))
+        light.kind = static_cast<LightKind>(dice.below(1 + int(LightKind::Environment)));
+    if (dice.oneIn(2)) light.environment.image = nullptr;
+}
+
 } // namespace
 
 TEST_CASE("fuzz: damaged scenes are refused or can be traced", "[fuzz]")
@@ -76,35 +110,41 @@ TEST_CASE("fuzz: damaged scenes are refused or can be traced", "[fuzz]")
 TEST_CASE("fuzz: a server survives damaged messages", "[fuzz]")
 {
     const auto workers = std::make_shared<Workers>(1);
-    const Scene scene = someScene();
     std::vector<Bytes> answers;
-    forEachSeed(2000,
-                [&](uint32_t seed)
-                {
-                    Dice dice(seed);
-                    answers.clear();
-                    TileServer server(workers, [&](const std::string&, Bytes&& message)
-                                      { answers.push_back(std::move(message)); });
-                    SceneSender sender;
-                    PassOrder order;
-                    order.number = 1;
-                    order.scene = 2;
-                    order.pass.scene = nullptr;
-                    order.pass.view.width = order.pass.view.height = 40;
-                    order.pass.options.integrator = IntegratorKind::Whitted;
-                    std::vector<Bytes> messages = {
-                        messageOf(Hello{1, buildIdentity()}),
-                        sceneMessage(2, sender.message(scene)), messageOf(order),
-                        messageOf(TileOrders{1, 3, {0, 1, 2}, false, {}}), dropMessage(1)};
-                    const auto bad =
-                        static_cast<std::size_t>(dice.below(int(messages.size()) * 3 / 2));
-                    if (bad < messages.size()) messages[bad] = damaged(messages[bad], dice);
-                    for (const Bytes& message : messages)
-                        server.take("viewer", message);
-                    while (server.work())
-                        ;
-                    CHECK(!answers.empty());
-                });
+    uint64_t traced = 0;
+    const auto survive = [&](uint32_t seed)
+    {
+        Dice dice(seed);
+        answers.clear();
+        TileServer server(workers, [&](const std::string&, Bytes&& message)
+                          { answers.push_back(std::move(message)); });
+        SceneSender sender;
+        const bool isPath = dice.oneIn(2); // paths look lights up in tables
+        Scene scene = someScene();
+        if (isPath) shine(scene);
+        if (isPath && dice.oneIn(4)) mislead(scene, dice);
+        PassOrder order;
+        order.number = 1;
+        order.scene = 2;
+        order.pass.scene = nullptr;
+        order.pass.view.width = order.pass.view.height = isPath ? 8 : 40;
+        order.pass.options.integrator = isPath ? IntegratorKind::Path : IntegratorKind::Whitted;
+        std::vector<Bytes> messages = {messageOf(Hello{1, buildIdentity()}),
+                                       sceneMessage(2, sender.message(scene)), messageOf(order),
+                                       messageOf(TileOrders{1, 3, {0, 1, 2}, false, {}})};
+        if (dice.oneIn(4)) messages.push_back(dropMessage(1));
+        const std::size_t bad = dice.oneIn(2) ? 1 // scenes have the most to damage
+                                              : static_cast<std::size_t>(dice.below(8));
+        if (bad < messages.size()) messages[bad] = damaged(messages[bad], dice);
+        for (const Bytes& message : messages)
+            server.take("viewer", message);
+        while (server.work())
+            ;
+        CHECK(!answers.empty());
+        traced += server.tilesTraced();
+    };
+    forEachSeed(2000, survive);
+    CHECK(traced > 500);
 }
 
 TEST_CASE("fuzz: damaged answers are refused", "[fuzz]")

@@ -145,6 +145,21 @@ TEST_CASE("wire: only what has changed travels, and the rest stays where it was"
         CHECK(after->meshes[0] == before->meshes[0]);
         CHECK(sceneDigest(*after) == sceneDigest(scene));
     }
+    SECTION("an array that is edited in place, while its old mesh lives")
+    {
+        auto values = std::make_shared<std::vector<Vec3>>(scene.meshes.back()->positions.begin(),
+                                                          scene.meshes.back()->positions.end());
+        auto mesh = std::make_shared<Mesh>(*scene.meshes.back());
+        mesh->positions = SharedArray<Vec3>(values->data(), values->size(), values);
+        scene.meshes.back() = mesh;
+        REQUIRE(receiver.take(sender.message(scene)));
+        (*values)[0].x += 1.0f;
+        scene.meshes.back() = std::make_shared<Mesh>(*mesh);
+        const auto after = receiver.take(sender.message(scene));
+        REQUIRE(after);
+        CHECK(after->meshes.back()->positions[0] == (*values)[0]);
+        CHECK(sceneDigest(*after) == sceneDigest(scene));
+    }
     SECTION("a mesh that goes, and another one in its memory")
     {
         for (int i = 0; i < 20; ++i)
@@ -190,6 +205,7 @@ TEST_CASE("wire: pictures of a scene that has travelled are the same bit by bit"
 
 TEST_CASE("wire: scenes that the engine could not trace are refused", "[servers]")
 {
+    const std::string kNoLight = "an instance names a light that is not its own";
     const std::vector<std::pair<Edit, std::string>> wrong = {
         {ofMesh([](Mesh& m) { m.triangles = std::vector<UVec3>{UVec3(0, 1, 3)}; }),
          "a mesh has a triangle of vertices that it lacks"},
@@ -209,6 +225,21 @@ TEST_CASE("wire: scenes that the engine could not trace are refused", "[servers]
          "a material names a texture that the scene lacks"},
         {[](Scene& s) { s.lights[1].kind = LightKind::Mesh; },
          "a light names an instance that the scene lacks"},
+        {[](Scene& s)
+         {
+             s.lights[1].kind = LightKind::Environment;
+             s.lights[1].environment.image = nullptr;
+         },
+         "an environment light has no image"},
+        {[](Scene& s) { s.instances[0].light = 1; }, kNoLight},
+        {[](Scene& s)
+         {
+             s.instances.push_back(s.instances[0]);
+             s.lights[1].kind = LightKind::Mesh;
+             s.lights[1].instance = 0;
+             s.instances[1].light = 1;
+         },
+         kNoLight},
     };
     for (const auto& [edit, fault] : wrong)
     {

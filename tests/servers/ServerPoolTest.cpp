@@ -5,12 +5,14 @@
 #include "tests/servers/ThreadServer.h"
 
 #include "osgRayTrace/servers/ServerPool.h"
+#include "osgRayTrace/session/TileTracer.h"
 
 #include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace osgRayTrace::engine;
@@ -274,6 +276,51 @@ TEST_CASE("servers: equal images with photons, guided to what is seen", "[server
             CHECK(imageOf(scene, options, pool, 7) == alone);
             CHECK(pool->tilesTraced() > before);
         }
+}
+
+TEST_CASE("servers: AUTOMATIC ends photons as without them if they trace all tiles", "[servers]")
+{
+    /// Traces all tiles at once.
+    class TracesAll : public TileHelp, public PassHelp
+    {
+    public:
+        std::unique_ptr<PassHelp> begin(const HelpedPass& pass, const SharedTiles& tiles) override
+        {
+            std::vector<int> all;
+            std::vector<TilePhotons> photons;
+            for (int tile = tiles.take(); tile >= 0; tile = tiles.take())
+            {
+                all.push_back(tile);
+                if (pass.photons.pass) photons.push_back(tiles.photonsOf(tile));
+            }
+            std::vector<TracedTile> results;
+            REQUIRE(_tracer.begin(pass));
+            _tracer.trace(all, std::move(photons), results);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                tiles.bring(all[i], results[i]);
+            return std::make_unique<TracesAll>();
+        }
+        void note(const std::string&) override {}
+        void exchange() override {}
+        int awaited() const override { return 0; }
+        std::vector<int> takeLate() override { return {}; }
+
+    private:
+        TileTracer _tracer{std::make_shared<Workers>(1)};
+    };
+    SceneBuilder builder = cornellBox();
+    Material brushed = mirror(Vec3(0.95f, 0.9f, 0.8f));
+    brushed.roughness = 0.3f;
+    builder.add(sphereMesh(Vec3(400, 120, 120), 90.0f, 24), brushed);
+    const auto scene = builder.build(1);
+    RenderOptions options = optionsOf(IntegratorKind::Automatic);
+    options.photons = 3000;
+    constexpr int kMoreThanLearning = 6;
+    const Image alone = imageOf(scene, options, nullptr, kMoreThanLearning);
+    RenderOptions asked = options;
+    asked.integrator = IntegratorKind::PhotonCaustics;
+    REQUIRE(imageOf(scene, asked, nullptr, kMoreThanLearning) == alone); // they do not end
+    CHECK(imageOf(scene, options, std::make_shared<TracesAll>(), kMoreThanLearning) == alone);
 }
 
 TEST_CASE("servers: ppm is traced by the viewer alone, which is said once", "[servers]")

@@ -71,6 +71,7 @@ TEST_CASE("tile server: other versions are refused by name", "[servers]")
     REQUIRE(f.kindOfLast() == MessageKind::Refusal);
     const std::string reason = f.last<Refusal>().reason;
     CHECK(reason == "the server is " + buildIdentity() + ", the viewer is osgRayTrace 0.1, x86-64");
+    CHECK(f.last<Refusal>().lasts);
     CHECK(f.server.viewers() == 0);
     f.hello("a");
     CHECK(f.kindOfLast() == MessageKind::Welcome);
@@ -89,6 +90,30 @@ TEST_CASE("tile server: strangers are told, the silent are forgotten", "[servers
     CHECK(f.server.viewers() == 1);
     f.server.take("b", plainMessage(MessageKind::Bye));
     CHECK(f.server.viewers() == 0);
+    f.hello("c");
+    f.seconds += TileServer::kForgets + 1.0;
+    f.server.work();
+    CHECK(f.server.viewers() == 0);
+}
+
+TEST_CASE("tile server: whoever asks for more tiles than a viewer would is refused", "[servers]")
+{
+    Fixture f;
+    const std::vector<int32_t> most(4096);
+    for (uint64_t group = 0; group < 3; ++group)
+    {
+        if (group == 0) f.hello("a");
+        CHECK(f.server.viewers() == 1);
+        f.server.take("a", messageOf(TileOrders{1, group, most, false, {}}));
+    }
+    CHECK(f.server.viewers() == 0);
+    f.hello("a");
+    const std::size_t bound = TileServer::kMostQueued;
+    for (uint64_t group = 0; group <= bound; ++group) // groups without tiles take memory, too
+        f.server.take("a", messageOf(TileOrders{1, group, {}, false, {}}));
+    CHECK(f.server.viewers() == 0);
+    CHECK(f.kindOfLast() == MessageKind::Refusal);
+    CHECK(!f.last<Refusal>().lasts);
 }
 
 TEST_CASE("tile server: tiles of passes and scenes that it lacks come back empty", "[servers]")

@@ -63,10 +63,12 @@ std::string setKeys(void* socket, const std::string& file)
     if (server.empty()) return "there is no key in '" + file + "'";
     char ownPublic[kKeyLength + 1], ownSecret[kKeyLength + 1];
     if (zmq_curve_keypair(ownPublic, ownSecret) != 0) return "this ZeroMQ has no CURVE";
-    zmq_setsockopt(socket, ZMQ_CURVE_SERVERKEY, server.c_str(), server.size() + 1);
-    zmq_setsockopt(socket, ZMQ_CURVE_PUBLICKEY, ownPublic, sizeof ownPublic);
-    zmq_setsockopt(socket, ZMQ_CURVE_SECRETKEY, ownSecret, sizeof ownSecret);
-    return {};
+    if (zmq_setsockopt(socket, ZMQ_CURVE_SERVERKEY, server.c_str(), server.size() + 1) != 0)
+        return "what '" + file + "' has is no key";
+    const bool set =
+        zmq_setsockopt(socket, ZMQ_CURVE_PUBLICKEY, ownPublic, sizeof ownPublic) == 0 &&
+        zmq_setsockopt(socket, ZMQ_CURVE_SECRETKEY, ownSecret, sizeof ownSecret) == 0;
+    return set ? std::string() : std::string("this ZeroMQ takes no keys");
 }
 
 } // namespace
@@ -78,7 +80,8 @@ extern "C" __attribute__((visibility("default"))) osgRayTrace::engine::Link*
 osgRayTraceOpenLink(const std::string& address, std::string& fault)
 {
     using namespace osgRayTrace::engine;
-    constexpr int kQueued = 0; // messages; 0: as many as memory holds
+    constexpr int64_t kLargestMessage = int64_t(1) << 29; // bytes; answers are tiles at most
+    constexpr int kQueued = 0;                            // messages; 0: as many as memory holds
     void* const socket = zmq_socket(context(), ZMQ_DEALER);
     if (!socket)
     {
@@ -91,6 +94,7 @@ osgRayTraceOpenLink(const std::string& address, std::string& fault)
     setNumber(socket, ZMQ_SNDHWM, kQueued);
     setNumber(socket, ZMQ_RCVHWM, kQueued);
     setNumber(socket, ZMQ_RECONNECT_IVL, 100); // [ms]
+    zmq_setsockopt(socket, ZMQ_MAXMSGSIZE, &kLargestMessage, sizeof kLargestMessage);
     const std::size_t hash = address.find('#');
     if (hash != std::string::npos) fault = setKeys(socket, address.substr(hash + 1));
     if (fault.empty() && zmq_connect(socket, address.substr(0, hash).c_str()) != 0)
