@@ -263,7 +263,9 @@ double RemoteServer::lateAfter(const Group& group) const
 {
     constexpr double kUnknown = 0.1, kGrace = 0.010;
     if (_tileSeconds == 0.0) return group.sent + kUnknown;
-    return group.sent + 2.0 * (std::min(_latency, 0.05) + _given * _tileSeconds) + kGrace;
+    const double expected = 2.0 * (std::min(_latency, 0.05) + _given * _tileSeconds) + kGrace;
+    // Means may be far off: nobody waits longer for a server that says nothing.
+    return std::min(group.sent + expected, std::max(group.sent, _heard) + kSilence);
 }
 
 } // namespace osgRayTrace::engine
