@@ -27,9 +27,8 @@ Values otherValues(const Parameter& parameter)
     Values values = parameter.get(*plain);
     for (std::size_t i = 0; i < values.size(); ++i)
     {
-        const bool flag = std::string(parameter.name) == "thinWalled" ||
-                          std::string(parameter.name) == "vertexColors";
-        const double step = flag ? 1.0 : 0.0625 * double(i + 1);
+        const std::set<std::string> whole = {"thinWalled", "vertexColors", "interiorPriority"};
+        const double step = whole.count(parameter.name) ? 1.0 : 0.0625 * double(i + 1);
         values[i] += values[i] + step <= parameter.highest ? step : -step;
     }
     return values;
