@@ -165,8 +165,8 @@ GroupPlan planOf(const Options& options, RankRender& render)
     PassSums before = readCheckpoint(options.checkpoint).sums;
     if (!before.getColorImage())
         throw Failure(kCannotLoad, options.checkpoint + ": the checkpoint is damaged");
-    std::cerr << "osgraytrace: " << options.checkpoint << ": goes on from passes " << before.passes
-              << '\n';
+    std::cerr << "osgraytrace: " + options.checkpoint + ": goes on from passes " + before.passes +
+                     '\n';
     plan.basePicture = before.picture;
     render.displayReferred = before.displayReferred;
     plan.base = engineSums(std::move(before));

@@ -50,7 +50,8 @@ void reportInterruption(const Options& options, const Statistics& statistics)
     }
     if (!options.checkpoint.empty())
         left += "; the same command goes on from " + options.checkpoint;
-    std::cerr << "osgraytrace: " << interruptionName() << ": " << left << '\n';
+    // One write, as mpirun shows the writes of all processes in the order in which they come.
+    std::cerr << "osgraytrace: " + interruptionName() + ": " + left + '\n';
 }
 
 /// Returns the outputs that a picture of this size can be written to. The others are reported, and
