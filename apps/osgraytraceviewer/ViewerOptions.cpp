@@ -8,6 +8,7 @@
 #include "apps/common/Failure.h"
 #include "apps/common/PlacedCamera.h"
 
+#include <osgDB/FileNameUtils>
 #include <osgGA/AnimationPathManipulator>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
@@ -17,6 +18,7 @@
 #include <osgGA/TerrainManipulator>
 #include <osgGA/TrackballManipulator>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -57,7 +59,10 @@ std::optional<Placement> namedPlacement(osg::Node& scene, const std::string& nam
 SceneLights readLights(osg::ArgumentParser& arguments)
 {
     SceneLights lights;
-    lights.readVariables();
+    const auto isLit = [](const std::string& word) // the pseudo-loader reads the variables, too
+    { return osgDB::getLowerCaseFileExtension(word) == "raytrace"; };
+    if (std::none_of(arguments.argv(), arguments.argv() + arguments.argc(), isLit))
+        lights.readVariables();
     std::string value, elevation;
     while (arguments.read("--sun", value, elevation))
         if (!lights.set("sun", value + ':' + elevation))

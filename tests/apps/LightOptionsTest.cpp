@@ -146,3 +146,16 @@ TEST_CASE("light options: skies that cannot be read are refused", "[apps]")
     CHECK(osgraytrace(folder, "square.osgt -o out.exr --sun 0 91").exitCode == 1);
     CHECK(osgraytrace(folder, "square.osgt -o out.exr --headlight maybe").exitCode == 1);
 }
+
+TEST_CASE("light options: a variable's light shines once, whoever reads it", "[apps]")
+{
+    const TemporaryFolder folder;
+    writeSquare(folder / "square.osgt");
+    const std::string sun = "env OSGRAYTRACE_SUN=77:30 ";
+    const std::string options = " --passes 1 --size 16 16 --color-rule linear" + kFromAbove;
+    REQUIRE(osgraytrace(folder, "square.osgt -o a.png" + options, sun).exitCode == 0);
+    REQUIRE(osgraytrace(folder, "square.osgt.raytrace -o b.png" + options, sun).exitCode == 0);
+    REQUIRE(osgraytrace(folder, "square.osgt -o c.png" + options + " --sun 77 30").exitCode == 0);
+    CHECK((contents(folder / "a.png") == contents(folder / "b.png")));
+    CHECK((contents(folder / "a.png") == contents(folder / "c.png")));
+}
