@@ -53,8 +53,10 @@ OptionRow numberRow(const std::string& name, const Range<T>& range,
                     const std::string& help)
 {
     OptionRow row;
-    row.option = describe(name, textOf(range.minimum) + " .. " + textOf(range.maximum), help);
-    row.get = [get](const RayTraceSettings& settings) { return textOf((settings.*get)()); };
+    row.option = describe(
+        name, engine::numberText(range.minimum) + " .. " + engine::numberText(range.maximum), help);
+    row.get = [get](const RayTraceSettings& settings)
+    { return engine::numberText((settings.*get)()); };
     row.set = [range, set](RayTraceSettings& settings, const std::string& text)
     {
         T value{};

@@ -4,7 +4,6 @@
 
 #include <osgRayTrace/RayTraceSettings>
 
-#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -76,14 +75,6 @@ inline constexpr std::string_view kDenoiseWords[] = {"off", "filter", "oidn"};
 inline constexpr std::string_view kFogWords[] = {"depth", "medium", "off"};
 inline constexpr std::string_view kPresentationWords[] = {"frame-locked", "background"};
 inline constexpr std::string_view kColorRuleWords[] = {"auto", "display-referred", "linear"};
-
-/// Returns the shortest text that reads back as the same value, in any locale.
-template <typename T> std::string textOf(T value)
-{
-    char buffer[64];
-    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
-    return std::string(buffer, result.ptr);
-}
 
 /// Holds one row of the table.
 struct OptionRow

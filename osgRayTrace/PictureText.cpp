@@ -6,6 +6,7 @@
 
 #include "osgRayTrace/accel/EmbreeVersion.h"
 #include "osgRayTrace/base/Cpu.h"
+#include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/scene/SceneDigest.h"
 
@@ -44,19 +45,11 @@ std::string hexadecimal(uint64_t value)
     return std::string(digits, end);
 }
 
-/// Returns the shortest text that stands for the value alone.
-std::string textOf(double value)
-{
-    char digits[40];
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    return std::string(digits, end);
-}
-
 std::string textOf(const osg::Matrixd& matrix)
 {
     std::string text;
     for (int i = 0; i < 16; ++i)
-        text += (i > 0 ? " " : "") + textOf(matrix.ptr()[i]);
+        text += (i > 0 ? " " : "") + engine::numberText(matrix.ptr()[i]);
     return text;
 }
 

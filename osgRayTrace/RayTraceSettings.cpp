@@ -3,6 +3,7 @@
 #include <osgRayTrace/RayTraceSettings>
 
 #include "osgRayTrace/OptionTable.h"
+#include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 
@@ -32,8 +33,8 @@ void changeNumber(const char* name, const Range<T>& range, T& member, T value,
 {
     if (!range.contains(value))
     {
-        warnOnce(std::string(name) + " " + textOf(value) + " is not in " + textOf(range.minimum) +
-                 " .. " + textOf(range.maximum));
+        warnOnce(std::string(name) + " " + engine::numberText(value) + " is not in " +
+                 engine::numberText(range.minimum) + " .. " + engine::numberText(range.maximum));
         if (value != value) return; // NOLINT(misc-redundant-expression): not a number
     }
     change(member, std::clamp(value, range.minimum, range.maximum), modifiedCount);
@@ -46,7 +47,7 @@ void changeChoice(const char* name, Words words, T& member, T value, unsigned in
     const long long index = static_cast<long long>(value);
     if (index < 0 || index >= static_cast<long long>(words.size()))
     {
-        warnOnce(std::string(name) + ": there is no value number " + textOf(index));
+        warnOnce(std::string(name) + ": there is no value number " + engine::numberText(index));
         return;
     }
     change(member, value, modifiedCount);

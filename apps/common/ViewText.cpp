@@ -6,7 +6,6 @@
 #include "osgRayTrace/base/NumberText.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -14,19 +13,14 @@
 namespace osgRayTrace::app
 {
 
+using engine::numberText;
+
 namespace
 {
 
-std::string textOf(double value)
-{
-    char buffer[64];
-    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
-    return std::string(buffer, result.ptr);
-}
-
 std::string textOf(const osg::Vec3d& vector)
 {
-    return textOf(vector.x()) + ' ' + textOf(vector.y()) + ' ' + textOf(vector.z());
+    return numberText(vector.x()) + ' ' + numberText(vector.y()) + ' ' + numberText(vector.z());
 }
 
 /// Returns the next word as a number; nothing if it is none.
@@ -76,10 +70,10 @@ std::string viewText(const osg::Matrixd& view, const osg::Matrixd& projection)
         "--eye " + textOf(eye) + " --center " + textOf(center) + " --up " + textOf(up);
     double fovy = 0.0, aspect = 0.0, nearest = 0.0, farthest = 0.0;
     if (projection.getPerspective(fovy, aspect, nearest, farthest))
-        return text + " --fovy " + textOf(fovy);
+        return text + " --fovy " + numberText(fovy);
     double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
     if (projection.getOrtho(left, right, bottom, top, nearest, farthest))
-        return text + " --parallel " + textOf(top - bottom);
+        return text + " --parallel " + numberText(top - bottom);
     return text;
 }
 

@@ -9,7 +9,6 @@
 
 #include <osgRayTrace/RayTraceSettings>
 
-#include <charconv>
 #include <sstream>
 
 namespace osgRayTrace::app
@@ -88,18 +87,12 @@ void addColors(const PassSums& sums, std::size_t pixels, ExrPlanes& planes)
     planes.picture.channels.push_back({"depth.Z", false, sums.depth});
 }
 
-std::string textOf(float value)
-{
-    char digits[32];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
 std::string shownText(const Checkpoint& checkpoint)
 {
     std::string text = checkpoint.sums.displayReferred ? "1" : "0";
-    text += ' ' + textOf(checkpoint.exposureEv);
+    text += ' ' + engine::numberText(checkpoint.exposureEv);
     for (int i = 0; i < 4; ++i)
-        text += ' ' + textOf(checkpoint.clearColor[i]);
+        text += ' ' + engine::numberText(checkpoint.clearColor[i]);
     if (checkpoint.toneCurve != "srgb") text += ' ' + checkpoint.toneCurve;
     return text;
 }

@@ -3,10 +3,10 @@
 #include "PictureTexts.h"
 
 #include "apps/common/ViewText.h"
+#include "osgRayTrace/base/NumberText.h"
 
 #include <osgRayTrace/Version>
 
-#include <charconv>
 #include <cmath>
 
 namespace osgRayTrace::app
@@ -14,13 +14,6 @@ namespace osgRayTrace::app
 
 namespace
 {
-
-std::string textOf(double value)
-{
-    char buffer[64];
-    const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
-    return std::string(buffer, result.ptr);
-}
 
 /// Returns the options that crop the picture; empty if it is whole.
 std::string cropOf(const Options& options)
@@ -50,7 +43,7 @@ std::map<std::string, std::string> pictureTexts(const Options& options, const Ca
         {"osgRayTrace.camera", viewText(camera.view, camera.projection) + cropOf(options)},
     };
     if (std::isfinite(statistics.relativeError))
-        texts["osgRayTrace.error"] = textOf(statistics.relativeError);
+        texts["osgRayTrace.error"] = engine::numberText(statistics.relativeError);
     return texts;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "Video.h"
 
+#include "osgRayTrace/base/NumberText.h"
+
 #include <osgDB/FileNameUtils>
 
 #include <fcntl.h>
@@ -10,7 +12,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -32,12 +33,6 @@ const std::map<std::string, std::string>& formats()
     static const std::map<std::string, std::string> known = {
         {"mp4", "mp4"}, {"mov", "mov"}, {"mkv", "matroska"}, {"webm", "webm"}};
     return known;
-}
-
-std::string textOf(double value)
-{
-    char digits[64];
-    return std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
 }
 
 [[noreturn]] void fail(const std::string& what, int error)
@@ -62,7 +57,7 @@ std::vector<std::string> commandLine(const std::string& name, const std::string&
             "-video_size",
             std::to_string(width) + "x" + std::to_string(height),
             "-framerate",
-            textOf(framesPerSecond),
+            engine::numberText(framesPerSecond),
             "-i",
             "pipe:0",
             "-vf",

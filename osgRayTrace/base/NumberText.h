@@ -1,9 +1,10 @@
-// NumberText.h - reads numbers from text, alike in any locale. Layer: base.
+// NumberText.h - numbers as text and back, alike in any locale. Layer: base.
 // SPDX-License-Identifier: MIT
 #pragma once
 
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace osgRayTrace::engine
@@ -20,6 +21,15 @@ template <typename T> std::optional<T> parseNumber(std::string_view text)
     const auto result = std::from_chars(text.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
     return value;
+}
+
+/// Returns the shortest text that parseNumber<T>() reads as the same number; "inf" and "nan" for
+/// floating-point numbers that are not finite. The process's locale has no influence.
+template <typename T> std::string numberText(T value)
+{
+    char digits[64];
+    const auto result = std::to_chars(digits, digits + sizeof digits, value);
+    return std::string(digits, result.ptr);
 }
 
 } // namespace osgRayTrace::engine

@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/servers/ServerPool.h"
 
+#include "osgRayTrace/base/SteadySeconds.h"
+
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-double steadySeconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-} // namespace
 
 /// A pass at work. All but the tiles' functions is guarded by the pool's mutex.
 class ServerPool::Work : public PassHelp

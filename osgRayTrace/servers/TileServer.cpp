@@ -4,6 +4,7 @@
 #include "osgRayTrace/servers/TileServer.h"
 
 #include "osgRayTrace/accel/TracedScene.h"
+#include "osgRayTrace/base/SteadySeconds.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/servers/BuildIdentity.h"
 #include "osgRayTrace/servers/SceneWire.h"
@@ -11,7 +12,6 @@
 #include "osgRayTrace/session/TileTracer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <deque>
 #include <exception>
 #include <optional>
@@ -20,17 +20,6 @@
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-double steadySeconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-} // namespace
 
 /// What the server knows of a viewer.
 struct TileServer::Viewer

@@ -6,6 +6,7 @@
 #include "apps/osgraytracebench/scenes/BenchScenes.h"
 #include "apps/osgraytracebench/scenes/ObjectField.h"
 #include "osgRayTrace/base/LargeArray.h"
+#include "osgRayTrace/base/SteadySeconds.h"
 #include "osgRayTrace/bridge/update/RenderOptionsFromSettings.h"
 #include "osgRayTrace/bridge/update/SceneUpdater.h"
 #include "osgRayTrace/session/view/ViewTracer.h"
@@ -15,7 +16,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -122,13 +122,7 @@ using Clock = std::function<double()>;
 /// Returns the clock [s] of the options.
 Clock clockOf(const InteractiveOptions& options, int threads)
 {
-    if (!options.cpuClock)
-        return []
-        {
-            return std::chrono::duration<double>(
-                       std::chrono::steady_clock::now().time_since_epoch())
-                .count();
-        };
+    if (!options.cpuClock) return steadySeconds;
     return [threads]
     {
         timespec time;

@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/view/ViewTracer.h"
 
+#include "osgRayTrace/base/SteadySeconds.h"
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-double steadySeconds()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-}
-
-} // namespace
 
 bool sameButForRounding(const View& a, const View& b)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/appearance/materials/MaterialListing.h"
 
+#include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialAssignment.h"
 #include "osgRayTrace/bridge/appearance/materials/RuleMaterial.h"
 
@@ -11,8 +12,6 @@
 #include <osg/Material>
 #include <osg/NodeVisitor>
 
-#include <array>
-#include <charconv>
 #include <functional>
 #include <map>
 #include <optional>
@@ -176,21 +175,13 @@ MaterialLibrary entriesOf(const Listed& listed)
     return library;
 }
 
-/// Returns the shortest text that reads as the same float.
-std::string numberText(double value)
-{
-    std::array<char, 32> text;
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), static_cast<float>(value)).ptr;
-    return std::string(text.data(), end);
-}
-
+/// Returns the shortest texts that read as the same floats.
 std::string valueText(const Values& values)
 {
-    if (values.size() == 1) return numberText(values[0]);
+    if (values.size() == 1) return numberText(static_cast<float>(values[0]));
     std::string text;
     for (const double value : values)
-        text += (text.empty() ? "[" : ", ") + numberText(value);
+        text += (text.empty() ? "[" : ", ") + numberText(static_cast<float>(value));
     return text + "]";
 }
 
