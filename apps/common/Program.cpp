@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/common/Program.h"
 
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Interruption.h"
 #include "apps/common/Output.h"
 
@@ -12,7 +13,6 @@
 
 #include <cerrno>
 #include <exception>
-#include <iostream>
 
 namespace osgRayTrace::app
 {
@@ -44,7 +44,7 @@ int codeOf(const std::string& name, const std::function<int()>& run)
     }
     catch (const std::exception& error)
     {
-        std::cerr << name << ": " << error.what() << '\n';
+        printError(name, error.what());
         return kCannotRender;
     }
 }
@@ -53,7 +53,7 @@ int codeOf(const std::string& name, const std::function<int()>& run)
 
 int reportFailure(const std::string& name, const Failure& failure)
 {
-    std::cerr << name << ": " << failure.what() << '\n';
+    printError(name, failure.what());
     return failure.code();
 }
 

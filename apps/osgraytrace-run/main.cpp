@@ -1,5 +1,6 @@
 // main.cpp - osgraytrace-run: starts a foreign program with its scenes ray traced. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "apps/common/ErrorLine.h"
 #include "osgRayTrace/base/Platform.h"
 
 #include <unistd.h>
@@ -13,9 +14,12 @@
 #include <string>
 #include <system_error>
 
+using osgRayTrace::app::printError;
+
 namespace
 {
 
+constexpr const char* kProgram = "osgraytrace-run";
 constexpr int kUsage = 1, kNoLibrary = 2, kCannotWrite = 4;
 constexpr int kCannotStart = 127; // code of shells
 
@@ -84,8 +88,8 @@ bool setPasses(const char* option, const char* value)
     const long passes = digits < 9 ? std::strtol(value, nullptr, 10) : 0;
     if (value[digits] != '\0' || passes < 1 || passes > kMostPasses)
     {
-        std::cerr << "osgraytrace-run: " << option << ' ' << value << ": the values are 1 .. "
-                  << kMostPasses << '\n';
+        printError(kProgram, std::string(option) + ' ' + value + ": the values are 1 .. " +
+                                 std::to_string(kMostPasses));
         return false;
     }
     setenv("OSGRAYTRACE_MAX_PASSES", value, 1);
@@ -129,15 +133,13 @@ int main(int argc, char** argv)
     const auto library = ourLibrary();
     if (!library)
     {
-        std::cerr << "osgraytrace-run: " << OSGRAYTRACE_RUN_LIBRARY
-                  << " is not where this program is installed\n";
+        printError(kProgram, OSGRAYTRACE_RUN_LIBRARY " is not where this program is installed");
         return kNoLibrary;
     }
     prepend("LD_PRELOAD", library->string(), ':');
     prepend("OSG_LIBRARY_PATH", library->parent_path().string(),
             ':'); // models may hold our materials
     execvp(argv[first], argv + first);
-    std::cerr << "osgraytrace-run: cannot start " << argv[first] << ": " << std::strerror(errno)
-              << '\n';
+    printError(kProgram, std::string("cannot start ") + argv[first] + ": " + std::strerror(errno));
     return kCannotStart;
 }

@@ -1,5 +1,6 @@
 // main.cpp - osgraytrace-server: traces tiles for viewers on other machines. Layer: apps.
 // SPDX-License-Identifier: MIT
+#include "apps/common/ErrorLine.h"
 #include "apps/osgraytrace-server/ZmqPort.h"
 
 #include "osgRayTrace/base/Parallel.h"
@@ -52,9 +53,9 @@ int serve(const Options& options)
     std::cout << kProgram << ": " << engine::buildIdentity() << ", " << workers->threads()
               << " threads, at " << port.address() << std::endl;
     if (!isLoopback(port.address()) && options.secretKey.empty())
-        std::cerr << kProgram
-                  << ": whoever reaches this port may use this machine's processors and memory "
-                     "(--secret-key)\n";
+        printError(kProgram,
+                   "whoever reaches this port may use this machine's processors and memory "
+                   "(--secret-key)");
     engine::TileServer server(workers, [&](const std::string& viewer, engine::Bytes&& message)
                               { port.send(viewer, std::move(message)); });
     std::string viewer;
@@ -123,7 +124,7 @@ int main(int argc, char** argv)
     }
     catch (const std::exception& error)
     {
-        std::cerr << "osgraytrace-server: " << error.what() << '\n';
+        osgRayTrace::app::printError("osgraytrace-server", error.what());
         return 1;
     }
 }

@@ -4,12 +4,12 @@
 #include "CheckpointKeeper.h"
 
 #include "Run.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Output.h"
 #include "apps/common/Program.h"
 
 #include <filesystem>
-#include <iostream>
 
 namespace osgRayTrace::app
 {
@@ -48,8 +48,7 @@ CheckpointKeeper::CheckpointKeeper(const Options& options, const osg::Vec4& clea
                               "passes cannot be made apart");
     if (options.checkpoint.empty() || !std::filesystem::exists(options.checkpoint)) return;
     Checkpoint before = readCheckpoint(options.checkpoint);
-    std::cerr << "osgraytrace: " << options.checkpoint << ": goes on from passes "
-              << before.sums.passes << '\n';
+    printError(kProgram, options.checkpoint + ": goes on from passes " + before.sums.passes);
     renderer.setPassSums(std::move(before.sums));
 }
 

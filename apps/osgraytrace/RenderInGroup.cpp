@@ -4,6 +4,7 @@
 #include "Checkpoint.h"
 #include "Picture.h"
 #include "Run.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
 #include "apps/common/Program.h"
@@ -14,7 +15,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 
 namespace osgRayTrace::app
 {
@@ -165,8 +165,7 @@ GroupPlan planOf(const Options& options, RankRender& render)
     PassSums before = readCheckpoint(options.checkpoint).sums;
     if (!before.getColorImage())
         throw Failure(kCannotLoad, options.checkpoint + ": the checkpoint is damaged");
-    std::cerr << "osgraytrace: " + options.checkpoint + ": goes on from passes " + before.passes +
-                     '\n';
+    printError(kProgram, options.checkpoint + ": goes on from passes " + before.passes);
     plan.basePicture = before.picture;
     render.displayReferred = before.displayReferred;
     plan.base = engineSums(std::move(before));

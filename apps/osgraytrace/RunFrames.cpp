@@ -5,6 +5,7 @@
 #include "Run.h"
 #include "StatisticsText.h"
 #include "Video.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Failure.h"
 #include "apps/common/Interruption.h"
 #include "apps/common/ModelFiles.h"
@@ -14,7 +15,6 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 
 namespace osgRayTrace::app
@@ -86,8 +86,9 @@ void renderFrames(const Options& options, Video* video)
         const Options frame = optionsOfFrame(animation->options, number);
         const bool written = runFrame(frame, number, *animation->shown, video);
         if (!isInterrupted()) continue;
-        std::cerr << "osgraytrace: " << interruptionName() << ": frame "
-                  << (written ? number + 1 : number) << " and those after it are not written\n";
+        printError(kProgram, interruptionName() + ": frame " +
+                                 std::to_string(written ? number + 1 : number) +
+                                 " and those after it are not written");
         break;
     }
 }

@@ -6,6 +6,7 @@
 #include "Run.h"
 #include "StatisticsText.h"
 #include "apps/common/DrawnParts.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Interruption.h"
 #include "apps/common/ModelFiles.h"
 #include "apps/common/Output.h"
@@ -50,8 +51,7 @@ void reportInterruption(const Options& options, const Statistics& statistics)
     }
     if (!options.checkpoint.empty())
         left += "; the same command goes on from " + options.checkpoint;
-    // One write, as mpirun shows the writes of all processes in the order in which they come.
-    std::cerr << "osgraytrace: " + interruptionName() + ": " + left + '\n';
+    printError(kProgram, interruptionName() + ": " + left);
 }
 
 /// Returns the outputs that a picture of this size can be written to. The others are reported, and

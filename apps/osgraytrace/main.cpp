@@ -1,6 +1,7 @@
 // main.cpp - osgraytrace: ray traces models to files, without any OpenGL context. Layer: apps.
 // SPDX-License-Identifier: MIT
 #include "Run.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/ModelFiles.h"
 #include "apps/common/Output.h"
 #include "apps/common/PluginPath.h"
@@ -27,13 +28,12 @@ void writeMaterials(const Options& options)
     writeText(options.writtenMaterials, file.text);
     std::cout << options.writtenMaterials << ": " << file.entries << " entries" << std::endl;
     if (file.nameless > 0)
-        std::cerr << "osgraytrace: " << file.nameless
-                  << " geometries are in no entry: neither material nor texture nor a node of "
-                     "theirs alone has a name\n";
+        printError(kProgram, std::to_string(file.nameless) +
+                                 " geometries are in no entry: neither material nor texture nor a "
+                                 "node of theirs alone has a name");
     if (!file.complete)
-        std::cerr
-            << "osgraytrace: the models are too large or too deep; materials of some parts are "
-               "left out\n";
+        printError(kProgram, "the models are too large or too deep; materials of some parts are "
+                             "left out");
 }
 
 int runCommandLine(int argc, char** argv)

@@ -5,6 +5,7 @@
 #include "SignalledViewer.h"
 
 #include "apps/cave/CaveView.h"
+#include "apps/common/ErrorLine.h"
 #include "apps/common/Failure.h"
 #include "apps/common/ImageFile.h"
 #include "apps/common/Output.h"
@@ -239,14 +240,14 @@ void writePictures(osgViewer::Viewer& viewer, RayTracedScene& scene,
     if (isInterrupted() && passes < 1)
         throw Failure(interruptionCode(), interruptionName() + ": there is no picture yet");
     if (isInterrupted())
-        std::cerr << "osgraytraceviewer: " << interruptionName() << ": pictures of " << passes
-                  << " passes are written\n";
+        printError("osgraytraceviewer", interruptionName() + ": pictures of " +
+                                            std::to_string(passes) + " passes are written");
     for (const WallPicture& picture : pictures)
     {
         if (picture.camera->getNodeMask() == 0)
         {
-            std::cerr << "no picture of " << picture.camera->getName()
-                      << ": the head is behind it\n";
+            printError("osgraytraceviewer",
+                       "no picture of " + picture.camera->getName() + ": the head is behind it");
             continue;
         }
         const std::string file = fileOf(output, picture);

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -214,4 +215,26 @@ TEST_CASE("osgraytrace: a write that fails leaves the other outputs", "[apps]")
         CHECK(isJson(contents(folder / "s.json")));
         CHECK(folder.fileNames() == Names{"hard", "s.json", picture});
     }
+}
+
+TEST_CASE("osgraytrace: a message on standard error is one write", "[apps]")
+{
+    // A pipe of packets keeps the writes apart. The programs of mpirun write to one pipe together.
+    int pipe[2];
+    REQUIRE(pipe2(pipe, O_DIRECT | O_NONBLOCK) == 0);
+    const TemporaryFolder folder;
+    const std::string command = "cd '" + folder / "." + "' && timeout 60 '" +
+                                OSGRAYTRACE_TEST_PROGRAM + "' none.osgt -o x.png 2>&" +
+                                std::to_string(pipe[1]);
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 2);
+    char packet[4096];
+    std::string last;
+    for (ssize_t size; (size = read(pipe[0], packet, sizeof packet)) > 0;)
+        last.assign(packet, static_cast<std::size_t>(size));
+    close(pipe[0]);
+    close(pipe[1]);
+    CHECK_THAT(last, StartsWith("osgraytrace: cannot load none.osgt"));
+    CHECK(last.find('\n') == last.size() - 1);
 }
