@@ -10,6 +10,7 @@
 
 #include <osg/LightSource>
 #include <osg/NodeVisitor>
+#include <osgDB/FileNameUtils>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -130,6 +131,13 @@ void SceneLights::readVariables()
         if (value && *value && !set(name, value))
             engine::warnOnce(variable + " cannot be '" + value + "'");
     }
+}
+
+void SceneLights::readVariables(int argc, const char* const* argv)
+{
+    const auto isOfLoader = [](const char* word)
+    { return osgDB::getLowerCaseFileExtension(word) == "raytrace"; };
+    if (std::none_of(argv, argv + argc, isOfLoader)) readVariables();
 }
 
 std::string SceneLights::addTo(osg::Group& scene) const

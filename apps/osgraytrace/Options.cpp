@@ -10,7 +10,6 @@
 #include "osgRayTrace/base/NumberText.h"
 
 #include <CLI/CLI.hpp>
-#include <osgDB/FileNameUtils>
 
 #include <algorithm>
 #include <cmath>
@@ -293,11 +292,8 @@ std::optional<Options> parseOptions(int argc, char** argv)
 {
     Options options;
     options.settings = new RayTraceSettings;
-    // Parts have the light that they were made with, and the pseudo-loader reads the variables,
-    // too.
-    const auto isLit = [](const std::string& word)
-    { return word == "--merge" || osgDB::getLowerCaseFileExtension(word) == "raytrace"; };
-    if (std::none_of(argv, argv + argc, isLit)) options.lights.readVariables();
+    const bool merges = std::find(argv, argv + argc, std::string("--merge")) != argv + argc;
+    if (!merges) options.lights.readVariables(argc, argv); // parts have their light already
     RawOptions raw;
 
     CLI::App app("Ray traces OpenSceneGraph models to pictures, without a graphics context.",

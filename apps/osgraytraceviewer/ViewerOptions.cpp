@@ -8,7 +8,6 @@
 #include "apps/common/Failure.h"
 #include "apps/common/PlacedCamera.h"
 
-#include <osgDB/FileNameUtils>
 #include <osgGA/AnimationPathManipulator>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
@@ -18,7 +17,6 @@
 #include <osgGA/TerrainManipulator>
 #include <osgGA/TrackballManipulator>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -59,10 +57,7 @@ std::optional<Placement> namedPlacement(osg::Node& scene, const std::string& nam
 SceneLights readLights(osg::ArgumentParser& arguments)
 {
     SceneLights lights;
-    const auto isLit = [](const std::string& word) // the pseudo-loader reads the variables, too
-    { return osgDB::getLowerCaseFileExtension(word) == "raytrace"; };
-    if (std::none_of(arguments.argv(), arguments.argv() + arguments.argc(), isLit))
-        lights.readVariables();
+    lights.readVariables(arguments.argc(), arguments.argv());
     std::string value, elevation;
     while (arguments.read("--sun", value, elevation))
         if (!lights.set("sun", value + ':' + elevation))

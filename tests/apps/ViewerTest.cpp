@@ -16,6 +16,7 @@
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -195,6 +196,24 @@ TEST_CASE("viewer: the manipulators of osgviewer take the view that is asked for
         CHECK(keys->getMatrixManipulatorWithKey(static_cast<unsigned int>(key)));
     options.camera = "no such camera";
     CHECK_THROWS_WITH(showView(viewer, *scene, options), Contains("there is no such file"));
+}
+
+TEST_CASE("viewer: variables add lights unless the pseudo-loader does", "[apps]")
+{
+    const auto hasSun = [](std::string model)
+    {
+        std::string program = "osgraytraceviewer";
+        int argc = 2;
+        char* argv[] = {program.data(), model.data(), nullptr};
+        osg::ArgumentParser arguments(&argc, argv);
+        return readViewerOptions(arguments).lights.sun.has_value();
+    };
+    setenv("OSGRAYTRACE_SUN", "77:30", 1);
+    CHECK(hasSun("cow.osgt"));
+    CHECK_FALSE(hasSun("cow.osgt.raytrace"));
+    CHECK_FALSE(hasSun("cow.osgt.RayTrace"));
+    unsetenv("OSGRAYTRACE_SUN");
+    CHECK_FALSE(hasSun("cow.osgt"));
 }
 
 TEST_CASE("viewer: the status line says how far the picture is, and what is not as usual",
