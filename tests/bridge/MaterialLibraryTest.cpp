@@ -130,6 +130,11 @@ TEST_CASE("material files: what is wrong is named, with its line", "[bridge]")
     CHECK_THAT(parameterError("\"baseColor\": [0.5, 1.5, 0]"),
                Contains("1.5 is not from 0.0 to 1.0"));
     CHECK_THAT(parameterError("\"emission\": [0, -1, 0]"), Contains("-1.0 is not from"));
+    for (const char* whole : {"interiorPriority", "thinWalled", "vertexColors", "edits"})
+        CHECK_THAT(parameterError('"' + std::string(whole) + "\": 0.5"),
+                   Contains("'" + std::string(whole) + "': 0.5 is no whole number"));
+    CHECK(parameterError("\"interiorPriority\": -3") == "");
+    CHECK(parameterError("\"interiorPriority\": 2.0") == "");
     CHECK_THAT(
         parameterError("\"baseColor\": [0.5, 1]"),
         Contains("'baseColor': an array of three numbers was expected, not an array of another"));

@@ -59,6 +59,7 @@ TEST_CASE("shader rules: what is wrong is named, with its line", "[bridge]")
     wrong(R"("gloss": 1)", "'gloss': is no member of a rule; there are name, if, attributes, base");
     wrong(R"("if": { "unit": 1 })", "'if': is there twice");
     wrong(R"("ior": 9)", "'ior': a number is out of range");
+    wrong(R"("interiorPriority": 1.5)", "'interiorPriority': a whole number was expected");
     wrong(R"("ior": "high")", "'ior': a number or an object was expected, not a string");
     wrong(R"("ior": [1])", "'ior': a number or an object was expected, not an array");
     wrong(R"("baseColor": [1, 1])", "'baseColor': an array of three numbers was expected");

@@ -25,7 +25,7 @@ namespace
 using Json = nlohmann::json;
 
 /// Stands for the flag of rules that edit, which is no parameter of a material.
-const Parameter kEdits = {"edits", 1, 0.0, 1.0, nullptr};
+const Parameter kEdits = {"edits", 1, 0.0, 1.0, nullptr, nullptr, true};
 
 constexpr std::size_t kMostBytes = std::size_t(16) << 20;
 
@@ -257,6 +257,9 @@ private:
             return fail("'" + std::string(_parameter->name) + "': " + shortNumber(value) +
                         " is not from " + shortNumber(_parameter->lowest) + " to " +
                         shortNumber(_parameter->highest));
+        if (_parameter->isWhole && value != std::floor(value))
+            return fail("'" + std::string(_parameter->name) + "': " + shortNumber(value) +
+                        " is no whole number");
         if (!_inArray) _values.clear();
         _values.push_back(value);
         if (_values.size() > _parameter->count) return wrongType("an array of another length");

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/NeverDestroyed.h"
 
+#include <cmath>
 #include <limits>
 
 namespace osgRayTrace::engine
@@ -79,7 +80,7 @@ const Parameter kParameters[] = {
      [](const PhysicalMaterial& m) { return valuesOf(m.getNormalScale()); }},
     {"thinWalled", 1, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setThinWalled(v[0] != 0.0); },
-     [](const PhysicalMaterial& m) { return valuesOf(m.getThinWalled()); }},
+     [](const PhysicalMaterial& m) { return valuesOf(m.getThinWalled()); }, true},
     {"attenuationColor", 3, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setAttenuationColor(colorOf(v)); },
      [](const PhysicalMaterial& m) { return valuesOf(m.getAttenuationColor()); }},
@@ -100,9 +101,10 @@ const Parameter kParameters[] = {
      [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getAnisotropy()); }},
     {"interiorPriority", 1, -1e6, 1e6,
      [](PhysicalMaterial& m, const Values& v)
-     { interiorOf(m).setPriority(static_cast<int>(v[0])); },
+     { interiorOf(m).setPriority(static_cast<int>(std::lround(v[0]))); },
      [](const PhysicalMaterial& m)
-     { return valuesOf(static_cast<float>(interiorOr(m).getPriority())); }},
+     { return valuesOf(static_cast<float>(interiorOr(m).getPriority())); },
+     true},
     {"specular", 1, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setSpecular(numberOf(v)); },
      [](const PhysicalMaterial& m) { return valuesOf(m.getSpecular()); }},
@@ -150,7 +152,7 @@ const Parameter kParameters[] = {
      [](const PhysicalMaterial& m) { return valuesOf(m.getIridescenceThicknessMaximum()); }},
     {"vertexColors", 1, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setVertexColors(v[0] != 0.0); },
-     [](const PhysicalMaterial& m) { return valuesOf(m.getVertexColors()); }},
+     [](const PhysicalMaterial& m) { return valuesOf(m.getVertexColors()); }, true},
 };
 
 } // namespace

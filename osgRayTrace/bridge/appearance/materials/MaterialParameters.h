@@ -21,6 +21,7 @@ struct Parameter
     double lowest, highest;
     void (*set)(PhysicalMaterial&, const Values&);
     Values (*get)(const PhysicalMaterial&) = nullptr;
+    bool isWhole = false; ///< true: a file with a fraction is refused
 };
 
 /// Returns the parameter of a name; null if there is none.

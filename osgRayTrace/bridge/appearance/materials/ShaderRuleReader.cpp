@@ -240,6 +240,8 @@ private:
         if (!json.is(Kind::Number)) return wrongType(json, "a number");
         if (!(json.number >= parameter.lowest && json.number <= parameter.highest))
             return fail(named, "a number is out of range");
+        if (parameter.isWhole && json.number != std::floor(json.number))
+            return fail(named, "a whole number was expected");
         source.constant.push_back(json.number);
         return true;
     }
