@@ -56,3 +56,32 @@ TEST_CASE("report: the hash of a scene changes with its values", "[report]")
         CHECK(std::count(hashes.begin(), hashes.end(), hashes.back()) == 1);
     }
 }
+
+TEST_CASE("report: the hash of a scene changes with the options of its picture", "[report]")
+{
+    SceneBuilder builder;
+    builder.add(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(0.5f)));
+    osgRayTrace::bench::PreparedScene prepared;
+    prepared.traced = builder.build();
+    const auto hashWith = [&](const std::function<void(RenderOptions&)>& edit)
+    {
+        osgRayTrace::bench::Method method;
+        edit(method.options);
+        return hashOf(prepared, method);
+    };
+    const uint64_t plain = hashWith([](RenderOptions&) {});
+    CHECK(hashWith([](RenderOptions& o) { o.seed = 7; }) == plain); // seeds have files of their own
+    const std::function<void(RenderOptions&)> edits[] = {
+        [](RenderOptions& o) { o.integrator = IntegratorKind::Path; },
+        [](RenderOptions& o) { o.maxBounces = 3; },
+        [](RenderOptions& o) { o.shadows = false; },
+        [](RenderOptions& o) { o.aperture = 0.1f; },
+        [](RenderOptions& o) { o.focus = 2.0f; },
+        [](RenderOptions& o) { o.photonGuiding = false; },
+    };
+    for (std::size_t i = 0; i < std::size(edits); ++i)
+    {
+        CAPTURE(i);
+        CHECK(hashWith(edits[i]) != plain);
+    }
+}

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace osgRayTrace::bench
 {
@@ -69,11 +70,11 @@ uint64_t hashOf(const PreparedScene& prepared, const Method& method)
     uint64_t value = sceneDigest(prepared.traced->scene());
     const auto add = [&value](const auto&... items)
     { ((value = fold(value, memoryHash(&items, sizeof items))), ...); };
-    const RenderOptions& o = method.options;
+    RenderOptions options = method.options;
+    options.seed = 0; // the caller's part
     add(prepared.view.viewFromWorld, prepared.view.clipFromView, prepared.view.width,
-        prepared.view.height, o.integrator, o.lightSampling, o.lightSamples, o.environmentSampling,
-        o.environmentSamples, o.maxBounces, o.photons, o.photonRadius, o.photonAlpha,
-        o.radiusSchedule, o.photonGuiding);
+        prepared.view.height);
+    std::apply(add, options.restarting());
     return value;
 }
 
