@@ -105,7 +105,7 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     {
         if (light.kind == LightKind::Environment)
         {
-            traits.environment = true;
+            traits.environment |= light.environment.image != nullptr;
             continue;
         }
         const bool area = light.kind == LightKind::Parallelogram || light.kind == LightKind::Mesh;

@@ -113,7 +113,8 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
         const Light& light = scene.lights[i];
         if (light.kind == LightKind::Environment)
         {
-            if (!_environment)
+            // An environment without an image, which no converter makes, is no light.
+            if (!_environment && light.environment.image)
                 _environment = std::make_unique<PlacedEnvironment>(
                     light, i, previous ? previous->environment() : nullptr);
             continue;

@@ -374,3 +374,24 @@ TEST_CASE("environment: the same image for any number of threads", "[integrators
             CHECK(one.progress.droppedSamples == 0);
         }
 }
+
+TEST_CASE("environment: one without an image is no light, and the next one shines", "[integrators]")
+{
+    Light lost;
+    lost.kind = LightKind::Environment;
+    lost.radiance = Vec3(1.0f);
+    SceneBuilder dark, lit;
+    for (SceneBuilder* builder : {&dark, &lit})
+    {
+        builder->add(quadMesh({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(1.0f)));
+        builder->addLight(lost);
+    }
+    lit.addLight(environmentLight(newEnvironment(8, 4, Vec3(1.0f))));
+    CHECK_FALSE(sceneTraits(*dark.scene).environment);
+    CHECK(sceneTraits(*lit.scene).environment);
+    CHECK(dark.build()->lights().environment() == nullptr);
+    const auto traced = lit.build();
+    const PlacedEnvironment* found = traced->lights().environment();
+    REQUIRE(found);
+    CHECK(found->light() == lit.scene->lights.size() - 1);
+}

@@ -148,6 +148,7 @@ void EnvironmentConverter::read(const EnvironmentLight& source,
 {
     _image = nullptr;
     _counts.clear();
+    _sources.clear(); // should there be no memory, the next call reads anew
     ReplacedPixels replaced;
     if (source.getCubeMap())
         _image = environmentFromCube(images, linear, replaced);
