@@ -55,14 +55,12 @@ Mat3 eyeFromEngine(const View& view)
     return Mat3(glm::transpose(axes));
 }
 
-/// Returns the distance of what is straight ahead of the eye [engine units]; 0: nothing is.
+/// Returns the distance of what is straight ahead of the eye [engine units]; 0: nothing is. What
+/// the near plane cuts away counts: all depth slices of a picture have one focus.
 double distanceAhead(const View& view, const CameraRays& rays, const TracedScene& traced)
 {
-    const Vec3 sight = lineOfSight(view);
-    const Vec3 middle = rays.direction + 0.5f * static_cast<float>(view.width) * rays.directionDx +
-                        0.5f * static_cast<float>(view.height) * rays.directionDy;
-    const auto hit = traced.intersector().closestHit(
-        rays.origin, sight, rays.nearS * glm::dot(middle, sight), kInfinity, kCameraRays);
+    const auto hit = traced.intersector().closestHit(rays.origin, lineOfSight(view), 0.0f,
+                                                     kInfinity, kCameraRays);
     return hit ? static_cast<double>(hit->t) : 0.0;
 }
 

@@ -116,6 +116,28 @@ TEST_CASE("lens: without a distance what is straight ahead is in focus", "[integ
               .progress.status.ok());
 }
 
+TEST_CASE("lens: depth slices of a picture have one focus", "[integrators]")
+{
+    // The nearer slice has the lamp that is straight ahead, the other one a lamp beside it.
+    SceneBuilder builder;
+    builder.add(
+        quadMesh({-kHalfLamp, -kHalfLamp, -2}, {2 * kHalfLamp, 0, 0}, {0, 2 * kHalfLamp, 0}),
+        lamp(Vec3(7.0f)));
+    builder.add(quadMesh({0.1f, 0.1f, -4}, {0.1f, 0, 0}, {0, 0.1f, 0}), lamp(Vec3(7.0f)));
+    const auto traced = builder.build();
+    for (const auto& [near, far] : {std::pair(0.1, 3.0), std::pair(3.0, 100.0)})
+    {
+        CAPTURE(near);
+        View slice = sight();
+        slice.clipFromView[2][2] = -(far + near) / (far - near);
+        slice.clipFromView[3][2] = -2.0 * far * near / (far - near);
+        const auto pictureAt = [&](float focus)
+        { return render(traced, slice, lensOptions(IntegratorKind::Path, focus), 4).rgba; };
+        CHECK(pictureAt(0.0f) == pictureAt(2.0f));
+        CHECK(pictureAt(0.0f) != pictureAt(4.0f));
+    }
+}
+
 TEST_CASE("lens: depths and first hits are those of a pinhole", "[integrators]")
 {
     const auto traced = lampAt(-2.0f);
