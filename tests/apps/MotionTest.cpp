@@ -1,13 +1,8 @@
 // MotionTest.cpp - cameras that move, shutters and videos. Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/apps/FlyingBall.h"
 #include "tests/apps/Program.h"
-
-#include <osg/AnimationPath>
-#include <osg/MatrixTransform>
-#include <osg/ShapeDrawable>
-#include <osgDB/ReadFile>
-#include <osgDB/WriteFile>
 
 #include <cstdlib>
 
@@ -17,48 +12,11 @@ using Names = std::vector<std::string>;
 namespace
 {
 
-const std::string kQuick = "ball.osgt --size 64 16 --passes 2 ";
-
 /// Writes a ball at x = -3 over a box around the origin; it flies to x = 3 within the second
 /// second.
 void writeBall(const TemporaryFolder& folder)
 {
-    osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
-    path->setLoopMode(osg::AnimationPath::NO_LOOPING);
-    for (const auto& [time, x] : {std::pair(0.0, -3.0), std::pair(1.0, -3.0), std::pair(2.0, 3.0)})
-        path->insert(time, osg::AnimationPath::ControlPoint({x, 0.0, 0.0}));
-    osg::ref_ptr<osg::MatrixTransform> ball = new osg::MatrixTransform;
-    ball->setUpdateCallback(new osg::AnimationPathCallback(path));
-    ball->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f)));
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(ball);
-    root->addChild(new osg::ShapeDrawable(new osg::Box({0.0f, 0.0f, -2.0f}, 12.0f, 12.0f, 1.0f)));
-    REQUIRE(osgDB::writeNodeFile(*root, folder / "ball.osgt"));
-}
-
-/// Where the ball is, in the upper half of a picture, and over how many columns.
-struct Seen
-{
-    double column = 0.0;
-    int columns = 0;
-};
-
-Seen ballIn(const std::string& file)
-{
-    const osg::ref_ptr<osg::Image> picture = osgDB::readRefImageFile(file);
-    REQUIRE(picture);
-    Seen seen;
-    for (int x = 0; x < picture->s(); ++x)
-    {
-        bool isHere = false;
-        for (int y = picture->t() / 2; y < picture->t() && !isHere; ++y)
-            isHere = std::abs(picture->getColor(unsigned(x), unsigned(y)).r() - 0.2f) > 0.02f;
-        seen.column += isHere ? x : 0.0;
-        seen.columns += isHere;
-    }
-    REQUIRE(seen.columns > 0);
-    seen.column /= seen.columns;
-    return seen;
+    writeBall(folder, {{0.0, -3.0}, {1.0, -3.0}, {2.0, 3.0}});
 }
 
 /// Writes a path as osgviewer does: from x = -2 to 2 within 0.2 seconds, looking along +y.
@@ -79,10 +37,11 @@ TEST_CASE("osgraytrace --camera-path: the camera goes where it was recorded", "[
     const TemporaryFolder folder;
     writeBall(folder);
     writePath(folder / "way.path");
-    REQUIRE(osgraytrace(folder, kQuick + "--camera-path way.path --fps 10 -o p%d.png").exitCode ==
-            0);
+    REQUIRE(
+        osgraytrace(folder, kQuickBall + "--camera-path way.path --fps 10 -o p%d.png").exitCode ==
+        0);
     CHECK(folder.fileNames() == Names{"ball.osgt", "p0.png", "p1.png", "p2.png", "way.path"});
-    REQUIRE(osgraytrace(folder, kQuick + "--eye 0 -20 0 --center 0 0 0 --up 0 0 1 -o still.png")
+    REQUIRE(osgraytrace(folder, kQuickBall + "--eye 0 -20 0 --center 0 0 0 --up 0 0 1 -o still.png")
                 .exitCode == 0);
     const double first = ballIn(folder / "p0.png").column, last = ballIn(folder / "p2.png").column;
     CHECK(first - last > 5.0);
@@ -90,14 +49,15 @@ TEST_CASE("osgraytrace --camera-path: the camera goes where it was recorded", "[
     CHECK((contents(folder / "p1.png") == contents(folder / "still.png")));
 
     // Afterwards the path begins anew, as in osgviewer.
-    REQUIRE(osgraytrace(folder, kQuick + "--camera-path way.path --at 0.3 -o x.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "--camera-path way.path --at 0.3 -o x.png").exitCode ==
+            0);
     CHECK((contents(folder / "x.png") == contents(folder / "p1.png")));
 
     std::ofstream(folder / "bad.path") << "0 0 0 0 0 0 0 1\n\n1 0 0 zero 0 0 0 1\n";
-    const Outcome bad = osgraytrace(folder, kQuick + "--camera-path bad.path -o b.png");
+    const Outcome bad = osgraytrace(folder, kQuickBall + "--camera-path bad.path -o b.png");
     CHECK(bad.exitCode == 2);
     CHECK_THAT(bad.errors, Contains("cannot read bad.path: line 3 is not a time"));
-    CHECK(osgraytrace(folder, kQuick + "--camera-path none.path -o b.png").exitCode == 2);
+    CHECK(osgraytrace(folder, kQuickBall + "--camera-path none.path -o b.png").exitCode == 2);
 }
 
 TEST_CASE("osgraytrace --parallel: a plan, and a view that is kept in a file", "[apps]")
@@ -105,32 +65,32 @@ TEST_CASE("osgraytrace --parallel: a plan, and a view that is kept in a file", "
     const TemporaryFolder folder;
     writeBall(folder);
     const std::string from = "--eye 0 -50 0 --center 0 0 0 --up 0 0 1 ";
-    REQUIRE(osgraytrace(folder, kQuick + from + "--parallel 4 -o plan.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + from + "--parallel 4 -o plan.png").exitCode == 0);
     // The picture is 16 wide in the model's units: the ball's middle is 5 from the left.
     CHECK(ballIn(folder / "plan.png").column == Approx(64.0 * 5.0 / 16.0 - 0.5).margin(0.51));
     CHECK(ballIn(folder / "plan.png").columns == 8);
     std::ofstream(folder / "kept.view") << from << "\n--parallel 4\n";
-    REQUIRE(osgraytrace(folder, kQuick + "--camera kept.view -o kept.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "--camera kept.view -o kept.png").exitCode == 0);
     CHECK((contents(folder / "kept.png") == contents(folder / "plan.png")));
-    CHECK(osgraytrace(folder, kQuick + "--parallel 4 --fovy 30 -o x.png").exitCode == 1);
-    CHECK(osgraytrace(folder, kQuick + "--camera other -o x.png").exitCode == 1);
+    CHECK(osgraytrace(folder, kQuickBall + "--parallel 4 --fovy 30 -o x.png").exitCode == 1);
+    CHECK(osgraytrace(folder, kQuickBall + "--camera other -o x.png").exitCode == 1);
 }
 
 TEST_CASE("osgraytrace --turntable: the camera goes around the centre", "[apps]")
 {
     const TemporaryFolder folder;
     writeBall(folder);
-    REQUIRE(osgraytrace(folder, kQuick + "--turntable 8 -o t%d.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "--turntable 8 -o t%d.png").exitCode == 0);
     CHECK(folder.fileNames().size() == 9);
-    const Seen before = ballIn(folder / "t0.png"), behind = ballIn(folder / "t4.png");
+    const SeenBall before = ballIn(folder / "t0.png"), behind = ballIn(folder / "t4.png");
     CHECK(before.column + behind.column == Approx(63.0).margin(1.0));
     CHECK(ballIn(folder / "t2.png").column == Approx(31.5).margin(1.0));
     CHECK(ballIn(folder / "t1.png").column < 31.0); // seen from the right, it is nearer
-    REQUIRE(osgraytrace(folder, kQuick + "--turntable -8 --at 0.04 -o back.png").exitCode == 0);
-    REQUIRE(osgraytrace(folder, kQuick + "--turntable 8 --frames 7 -o on%d.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "--turntable -8 --at 0.04 -o back.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "--turntable 8 --frames 7 -o on%d.png").exitCode == 0);
     CHECK((contents(folder / "t7.png") == contents(folder / "on7.png")));
     CHECK(ballIn(folder / "back.png").column == Approx(ballIn(folder / "t7.png").column));
-    REQUIRE(osgraytrace(folder, kQuick + "-o still.png").exitCode == 0);
+    REQUIRE(osgraytrace(folder, kQuickBall + "-o still.png").exitCode == 0);
     CHECK((contents(folder / "t0.png") == contents(folder / "still.png")));
 }
 
@@ -143,7 +103,7 @@ TEST_CASE("osgraytrace --shutter: what moves is blurred, in parts of pictures as
             0);
     REQUIRE(osgraytrace(folder, picture + "--passes 8 --shutter 1 -o rests.png").exitCode == 0);
     REQUIRE(osgraytrace(folder, picture + "--passes 8 -o sharp.png").exitCode == 0);
-    const Seen sharp = ballIn(folder / "sharp.png"), blur = ballIn(folder / "blur.png");
+    const SeenBall sharp = ballIn(folder / "sharp.png"), blur = ballIn(folder / "blur.png");
     CHECK((contents(folder / "rests.png") == contents(folder / "sharp.png")));
     CHECK(blur.columns > 2 * sharp.columns);
     CHECK(blur.column == Approx(31.5).margin(2.0));
@@ -163,7 +123,7 @@ TEST_CASE("osgraytrace: videos are made by ffmpeg, where it is", "[apps]")
 {
     const TemporaryFolder folder;
     writeBall(folder);
-    const std::string video = kQuick + "--frames 0:3 -o film.mp4 ";
+    const std::string video = kQuickBall + "--frames 0:3 -o film.mp4 ";
     const Outcome without =
         osgraytrace(folder, video, "timeout() { shift; PATH=/nowhere \"$@\"; };");
     CHECK(without.exitCode == 4);
@@ -202,7 +162,7 @@ TEST_CASE("osgraytrace: wrong usage of motion is named", "[apps]")
     for (const auto& [arguments, message] : wrong)
     {
         CAPTURE(arguments);
-        const Outcome outcome = osgraytrace(folder, kQuick + arguments);
+        const Outcome outcome = osgraytrace(folder, kQuickBall + arguments);
         CHECK(outcome.exitCode == 1);
         CHECK_THAT(outcome.errors, Contains(message));
     }
