@@ -296,6 +296,7 @@ void PhotonState::sumUpSeen()
 PhotonNote PhotonState::note() const
 {
     if (_dark) return PhotonNote::NoPower;
+    if (_ended) return PhotonNote::Ended;
     if (!_pass) return PhotonNote::None;
     if (_pass->rays > 0 && !_stored) return PhotonNote::NoneStored;
     return _limited ? PhotonNote::RadiusLimited : PhotonNote::None;

@@ -56,7 +56,6 @@ struct StopRule
     std::function<void(int pass)> pose;
 };
 
-/// The reasons why photons have less effect than a user may expect.
 /// What an image with media leaves out.
 enum class MediumNote : uint8_t
 {
@@ -65,6 +64,7 @@ enum class MediumNote : uint8_t
     SingleOnly,   ///< Whitted's integrator has single scattering alone
 };
 
+/// The reasons why photons have less effect than a user may expect.
 enum class PhotonNote : uint8_t
 {
     None,
@@ -72,6 +72,8 @@ enum class PhotonNote : uint8_t
     NoneStored, ///< photons were followed, but met no surface that scatters light
     /// the radius that was set is below the spacing of floats, or larger than the scene
     RadiusLimited,
+    /// the first passes saw next to nothing of the photons' light: paths find all light since then
+    Ended,
 };
 
 struct RayCounts
@@ -87,8 +89,9 @@ struct RayCounts
 struct RenderProgress
 {
     Status status;
-    IntegratorKind integrator = IntegratorKind::Automatic; ///< the integrator that was chosen
-    int passes = 0;                                        ///< complete passes
+    /// The integrator that was chosen. It is PhotonCaustics, too, if photonNote is Ended.
+    IntegratorKind integrator = IntegratorKind::Automatic;
+    int passes = 0;       ///< complete passes
     double seconds = 0.0; ///< time spent in passes since the restart
     /// Last estimate of the image's error. It is made after each pass if the rule or keepGoing asks
     /// for it.
@@ -106,7 +109,7 @@ struct RenderProgress
     double firstPhotonSeconds = 0.0; ///< the part of photonSeconds in the first pass of this call
     float photonRadius = 0.0f;       ///< radius of the last pass [length]; 0 without photons
     PhotonNote photonNote = PhotonNote::None; ///< the note on all passes together
-    uint64_t storedPhotons = 0;               ///< photons in the map of the last pass
+    uint64_t storedPhotons = 0;               ///< photons in the map of the last pass; 0: none
     uint64_t photonBytes = 0;                 ///< memory of the maps, which all views share
     /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.
     uint64_t hitPointBytes = 0;

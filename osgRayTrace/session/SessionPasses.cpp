@@ -100,10 +100,11 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     progress.photonSeconds += secondsSince(start);
     progress.photonNote = photons.note();
     const PhotonPass* traced = photons.photons();
-    if (!traced) return;
-    progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
-    progress.storedPhotons = traced->map.size();
+    progress.photonRadius =
+        traced ? static_cast<float>(photons.radius() * filmScene->scene().unit) : 0.0f;
+    progress.storedPhotons = traced ? traced->map.size() : 0;
     progress.photonBytes = photons.keptBytes();
+    if (!traced) return;
     if (pass < photonsCounted) return;
     progress.rays.photon += traced->rays;
     progress.droppedSamples += traced->dropped;

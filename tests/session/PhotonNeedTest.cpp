@@ -44,6 +44,8 @@ struct Rendered
 {
     std::vector<float> image;
     uint64_t photonRays;
+    PhotonNote note;
+    uint64_t storedPhotons;
 
     bool operator==(const Rendered& other) const
     {
@@ -66,7 +68,8 @@ Rendered rendered(const std::shared_ptr<const TracedScene>& traced, float x, Int
     rule.passes = first + passes;
     const RenderProgress progress = session.render(rule);
     REQUIRE(progress.passes == passes);
-    return {session.resolveRadiance(), progress.rays.photon};
+    return {session.resolveRadiance(), progress.rays.photon, progress.photonNote,
+            progress.storedPhotons};
 }
 
 } // namespace
@@ -79,6 +82,12 @@ TEST_CASE("photon need: where no light of metal is seen, paths find all of it", 
     CHECK((chosen.image == rendered(traced, 0.0f, IntegratorKind::Path, kLearning, 2).image));
     CHECK(chosen.photonRays > 0); // of the passes that tell
     CHECK(asked.photonRays > chosen.photonRays);
+    CHECK(chosen.note == PhotonNote::Ended);
+    CHECK(chosen.storedPhotons == 0);
+    CHECK(asked.note == PhotonNote::None);
+    CHECK(asked.storedPhotons > 0);
+    const Rendered learning = rendered(traced, 0.0f, IntegratorKind::Automatic, 0, kLearning);
+    CHECK(learning.note == PhotonNote::None); // all of its passes have photons
 }
 
 TEST_CASE("photon need: where it is seen, photons carry it", "[session]")

@@ -45,6 +45,9 @@ const char* noteText(PhotonNote note)
     case PhotonNote::RadiusLimited:
         return "photon-radius is limited: not below the spacing of floats in this scene, and not "
                "above the scene's own radius";
+    case PhotonNote::Ended:
+        return "photons have ended: the first passes saw next to nothing of their light, and paths "
+               "find all light";
     }
     return "";
 }
@@ -118,7 +121,8 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     const bool hasPicture = progress.status.code == StatusCode::Cancelled && progress.passes > 0;
     statistics.ok = progress.status.ok() || hasPicture;
     statistics.message = progress.status.message;
-    statistics.integrator = integratorName(progress.integrator);
+    const bool ended = progress.photonNote == PhotonNote::Ended;
+    statistics.integrator = integratorName(ended ? IntegratorKind::Path : progress.integrator);
     statistics.passes = progress.passes;
     statistics.imageShare = progress.imageShare;
     statistics.lightNote = lightNote(progress.lights);
@@ -135,7 +139,7 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.photonBytes = progress.photonBytes;
     statistics.hitPointBytes = progress.hitPointBytes;
     statistics.photonNote = noteText(progress.photonNote);
-    if (!statistics.photonNote.empty()) warnOnce(statistics.photonNote);
+    if (!statistics.photonNote.empty() && !ended) warnOnce(statistics.photonNote);
     statistics.photonRadius = static_cast<double>(progress.photonRadius);
     statistics.mediumNote = noteText(progress.mediumNote);
     if (!statistics.mediumNote.empty()) warnOnce(statistics.mediumNote);
