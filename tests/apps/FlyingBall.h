@@ -20,9 +20,10 @@
 inline const std::string kQuickBall = "ball.osgt --size 64 16 --passes 2 ";
 
 /// Writes ball.osgt: a ball that flies along x over a box around the origin. places: pairs of a
-/// time [s] and x, between which the ball flies evenly; it rests after the last one.
+/// time [s] and x, between which the ball flies evenly; it rests after the last one. depth: of the
+/// box, along y.
 inline void writeBall(const TemporaryFolder& folder,
-                      const std::vector<std::pair<double, double>>& places)
+                      const std::vector<std::pair<double, double>>& places, float depth)
 {
     osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
     path->setLoopMode(osg::AnimationPath::NO_LOOPING);
@@ -33,7 +34,7 @@ inline void writeBall(const TemporaryFolder& folder,
     ball->addChild(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f)));
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(ball);
-    root->addChild(new osg::ShapeDrawable(new osg::Box({0.0f, 0.0f, -2.0f}, 12.0f, 12.0f, 1.0f)));
+    root->addChild(new osg::ShapeDrawable(new osg::Box({0.0f, 0.0f, -2.0f}, 12.0f, depth, 1.0f)));
     REQUIRE(osgDB::writeNodeFile(*root, folder / "ball.osgt"));
 }
 

@@ -14,7 +14,7 @@ namespace
 /// Writes a ball that flies from x = -6 to 6 within two seconds over a box that stands.
 void writeBall(const TemporaryFolder& folder)
 {
-    writeBall(folder, {{0.0, -6.0}, {2.0, 6.0}});
+    writeBall(folder, {{0.0, -6.0}, {2.0, 6.0}}, 1.0f);
 }
 
 } // namespace

@@ -16,7 +16,7 @@ namespace
 /// second.
 void writeBall(const TemporaryFolder& folder)
 {
-    writeBall(folder, {{0.0, -3.0}, {1.0, -3.0}, {2.0, 3.0}});
+    writeBall(folder, {{0.0, -3.0}, {1.0, -3.0}, {2.0, 3.0}}, 12.0f);
 }
 
 /// Writes a path as osgviewer does: from x = -2 to 2 within 0.2 seconds, looking along +y.

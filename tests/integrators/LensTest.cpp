@@ -133,8 +133,8 @@ TEST_CASE("lens: depth slices of a picture have one focus", "[integrators]")
         slice.clipFromView[3][2] = -2.0 * far * near / (far - near);
         const auto pictureAt = [&](float focus)
         { return render(traced, slice, lensOptions(IntegratorKind::Path, focus), 4).rgba; };
-        CHECK(pictureAt(0.0f) == pictureAt(2.0f));
-        CHECK(pictureAt(0.0f) != pictureAt(4.0f));
+        CHECK((pictureAt(0.0f) == pictureAt(2.0f)));
+        CHECK((pictureAt(0.0f) != pictureAt(4.0f)));
     }
 }
 
