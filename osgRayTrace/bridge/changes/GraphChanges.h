@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/changes/ConversionReason.h"
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
 
+#include <osg/ClipNode>
 #include <osg/Geometry>
 #include <osg/Light>
 #include <osg/Matrixd>
@@ -48,6 +49,13 @@ struct GraphSplice
     std::vector<ChangedUse> uses;
 };
 
+/// Names a clip node and the place of its planes.
+struct PlacedClip
+{
+    const osg::ClipNode* node = nullptr;
+    osg::Matrixd sceneFromPlanes;
+};
+
 /// Names what of a view's conditions has changed without the graph.
 struct ViewChange
 {
@@ -69,6 +77,9 @@ struct GraphChanges
     std::vector<const osg::Geometry*> deformed;
     std::vector<StateChange> stateChanges;
     bool lights = false; ///< true: values of lights of any kind changed
+    /// All clip nodes that are watched, in traversal order, if planes of one that cut what is in
+    /// the scene have changed; else empty.
+    std::vector<PlacedClip> clips;
     std::optional<ViewChange> view;
 
     bool none() const { return !view && noneInGraph(); }
@@ -78,7 +89,7 @@ private:
     bool noneInGraph() const
     {
         return !convert && splices.empty() && moved.empty() && deformed.empty() &&
-               stateChanges.empty() && !lights;
+               stateChanges.empty() && !lights && clips.empty();
     }
 };
 

@@ -120,7 +120,11 @@ public:
         addPlace();
         if (node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF) hashView();
         for (const auto& plane : node.getClipPlaneList())
-            if (plane) _hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
+        {
+            if (!plane) continue;
+            _hasher.add(plane->getClipPlaneNum());
+            if (_shapes) _hasher.add(plane->getClipPlane());
+        }
         enter(node);
     }
 

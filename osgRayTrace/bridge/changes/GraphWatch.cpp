@@ -159,6 +159,7 @@ GraphChanges GraphWatch::look(osg::Node& root, const ViewingConditions& conditio
     lookAtBuffers(changes);
     lookAtStates();
     lookAtLights(changes);
+    lookAtClips(changes);
     const uint64_t inherited = inheritedHash(conditions);
     if (inherited != _inheritedHash)
     {

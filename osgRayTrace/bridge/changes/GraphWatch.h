@@ -17,6 +17,7 @@ struct ConvertedNodes
 {
     const std::unordered_set<const osg::Node*>& captured; ///< see CullWatch
     const std::unordered_set<const osg::Node*>* inScene; ///< CollectedGraph::inScene; null: unknown
+    uint64_t cuttingPlanes = ~uint64_t(0);               ///< CollectedGraph::cuttingPlanes
 };
 
 /// Holds a graph as it was seen last (see WatchedGraph). A look compares the nodes of the graph one
@@ -73,6 +74,7 @@ private:
     void lookAtBuffers(GraphChanges& changes);
     void lookAtStates();
     void lookAtLights(GraphChanges& changes);
+    void lookAtClips(GraphChanges& changes);
     void findChanged(GraphChanges& changes);
     uint32_t usesBefore(uint32_t geometry, uint32_t node) const;
 

@@ -16,11 +16,11 @@ namespace
 constexpr std::size_t kMostSplices = 256;
 
 /// Returns whether the graph must be converted if the node comes or goes; the nodes around such a
-/// node are watched in another way.
+/// node are watched in another way, or it changes others.
 bool isOfTheWhole(const WatchedNode& node)
 {
-    return node.kind == NodeKind::Untracked || isLight(node.kind) || node.hint != 0 ||
-           node.node->getCullCallback();
+    return node.kind == NodeKind::Untracked || node.kind == NodeKind::Clip || isLight(node.kind) ||
+           node.hint != 0 || node.node->getCullCallback();
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/MediumVolume>
 
+#include <osg/ClipNode>
 #include <osg/Geode>
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
@@ -100,6 +101,9 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node)
         const auto& source = static_cast<const osg::LightSource&>(node);
         return fold(groupHash(source), source.getReferenceFrame() + (source.getLight() ? 2u : 0u));
     }
+    case NodeKind::Clip:
+        return fold(groupHash(static_cast<const osg::Group&>(node)),
+                    static_cast<const osg::ClipNode&>(node).getReferenceFrame());
     case NodeKind::AreaLight:
     case NodeKind::Environment:
     case NodeKind::Volume:
@@ -133,6 +137,15 @@ uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept)
     const osg::Light* light = static_cast<const osg::LightSource&>(node).getLight();
     hasher.addObject(light);
     if (light) addLight(hasher, *light);
+    return hasher.value();
+}
+
+uint64_t clipHash(const osg::ClipNode& node, const osg::Matrixd& sceneFromPlanes)
+{
+    Hasher hasher;
+    hasher.addMatrix(sceneFromPlanes);
+    for (const osg::ref_ptr<osg::ClipPlane>& plane : node.getClipPlaneList())
+        if (plane) hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
     return hasher.value();
 }
 

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 
+#include <osg/ClipNode>
 #include <osg/Geometry>
 #include <osg/Group>
 
@@ -27,6 +28,9 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node);
 
 /// Returns a hash of the values of a light except for its frame. kept is as in Hasher.
 uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept = nullptr);
+
+/// Returns a hash of the planes of a clip node in this place.
+uint64_t clipHash(const osg::ClipNode& node, const osg::Matrixd& sceneFromPlanes);
 
 /// Returns a hash of the arrays and primitive sets that a geometry has. attributes is as in
 /// forEachBuffer.

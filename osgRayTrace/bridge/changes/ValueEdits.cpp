@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 #include "osgRayTrace/bridge/changes/Prefetch.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/common/ClipPlanes.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -93,6 +94,25 @@ void GraphWatch::lookAtLights(GraphChanges& changes)
         light.hash = lightHash(node.kind, *node.node, &kept);
         light.kept = std::move(kept);
     }
+}
+
+/// Planes that cut nothing in the scene may be anywhere.
+void GraphWatch::lookAtClips(GraphChanges& changes)
+{
+    const uint64_t cutting = _converted ? _converted->cuttingPlanes : ~uint64_t(0);
+    bool changed = false;
+    for (WatchedClip& clip : _graph.clips)
+    {
+        const auto& node = static_cast<const osg::ClipNode&>(*_graph.nodes[clip.node].node);
+        const uint64_t hash = clipHash(node, _graph.sceneFromPlanes(clip.node, _plain));
+        if (hash == clip.hash) continue;
+        clip.hash = hash;
+        changed |= (planeNumbers(node) & cutting) != 0;
+    }
+    if (!changed) return;
+    for (const WatchedClip& clip : _graph.clips)
+        changes.clips.push_back({static_cast<const osg::ClipNode*>(_graph.nodes[clip.node].node),
+                                 _graph.sceneFromPlanes(clip.node, _plain)});
 }
 
 /// Follows changed places and states down to the geometries below them.

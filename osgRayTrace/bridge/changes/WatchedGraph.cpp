@@ -160,6 +160,9 @@ void WatchedGraph::append(osg::Node& node, uint32_t parent, const osg::Matrixd& 
     entry.hash = nodeHash(entry.kind, node);
     setState(entry.state, node.getStateSet());
     push(entry);
+    if (entry.kind == NodeKind::Clip)
+        clips.push_back({index, clipHash(static_cast<const osg::ClipNode&>(node),
+                                         sceneFromPlanes(index, conditions))});
     if (const osg::Group* group = node.asGroup())
         for (unsigned int i = 0; i < childrenOf(*group).size(); ++i)
             if (const osg::ref_ptr<osg::Node> child = childrenOf(*group)[i];
@@ -210,7 +213,7 @@ void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
 {
     const auto before = static_cast<uint32_t>(nodes.size());
     const std::size_t firstPlace = places.size(), firstLight = lights.size(),
-                      firstHidden = hidden.size();
+                      firstClip = clips.size(), firstHidden = hidden.size();
     append(node, parent, sceneFromLocal(nodes[parent].place), pathTo(parent).size() + firstDepth,
            conditions);
     finish();
@@ -244,6 +247,8 @@ void WatchedGraph::insert(uint32_t at, osg::Node& node, uint32_t parent,
         shift(places[i].node, i >= firstPlace);
     for (std::size_t i = 0; i < lights.size(); ++i)
         shift(lights[i].node, i >= firstLight);
+    for (std::size_t i = 0; i < clips.size(); ++i)
+        shift(clips[i].node, i >= firstClip);
     for (std::size_t i = 0; i < hidden.size(); ++i)
         shift(hidden[i].parent, i >= firstHidden);
     std::rotate(nodes.begin() + at, nodes.begin() + before, nodes.end());
@@ -285,6 +290,9 @@ std::vector<Kept<osg::Node>> WatchedGraph::erase(uint32_t at)
     lights.erase(std::remove_if(lights.begin(), lights.end(),
                                 [&](const WatchedLight& light) { return isIn(light.node); }),
                  lights.end());
+    clips.erase(std::remove_if(clips.begin(), clips.end(),
+                               [&](const WatchedClip& clip) { return isIn(clip.node); }),
+                clips.end());
     hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
                                 [&](const HiddenNode& node) { return isIn(node.parent); }),
                  hidden.end());
@@ -301,6 +309,8 @@ std::vector<Kept<osg::Node>> WatchedGraph::erase(uint32_t at)
         shift(place.node);
     for (WatchedLight& light : lights)
         shift(light.node);
+    for (WatchedClip& clip : clips)
+        shift(clip.node);
     for (HiddenNode& node : hidden)
         shift(node.parent);
     nodes.erase(nodes.begin() + at, nodes.begin() + end);
@@ -360,6 +370,14 @@ osg::Matrixd WatchedGraph::sceneFromLocal(uint32_t place) const
     for (auto transform = transforms.rbegin(); transform != transforms.rend(); ++transform)
         (*transform)->computeLocalToWorldMatrix(matrix, nullptr);
     return matrix;
+}
+
+osg::Matrixd WatchedGraph::sceneFromPlanes(uint32_t node, const ViewingConditions& conditions) const
+{
+    const auto& clip = static_cast<const osg::ClipNode&>(*nodes[node].node);
+    return clip.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF
+               ? worldFromEye(conditions.view, conditions.eye)
+               : sceneFromLocal(nodes[node].place);
 }
 
 uint32_t WatchedGraph::outermostMoved(uint32_t place) const

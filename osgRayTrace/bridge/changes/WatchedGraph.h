@@ -98,6 +98,12 @@ struct WatchedLight
     KeptObjects kept; ///< objects in the hash
 };
 
+struct WatchedClip
+{
+    uint32_t node = 0;
+    uint64_t hash = 0; ///< see clipHash
+};
+
 /// Holds a child that a mask hides.
 struct HiddenNode
 {
@@ -133,6 +139,7 @@ struct WatchedGraph
     std::vector<WatchedBuffer> buffers;
     std::vector<WatchedState> states;
     std::vector<WatchedLight> lights;
+    std::vector<WatchedClip> clips;
     std::vector<HiddenNode> hidden;
     std::vector<UntrackedNode> untrackedNodes;
     const osg::Node* owner = nullptr; ///< decorator, if any, which owns the object that watches it
@@ -173,6 +180,9 @@ struct WatchedGraph
     void resetBuffers(const std::vector<uint32_t>& exchanged);
 
     osg::Matrixd sceneFromLocal(uint32_t place) const;
+
+    /// Returns the matrix of the planes of a clip node, which is at this index.
+    osg::Matrixd sceneFromPlanes(uint32_t node, const ViewingConditions& conditions) const;
 
     /// Returns the outermost of the places around a place, and that place, that have moved.
     uint32_t outermostMoved(uint32_t place) const;

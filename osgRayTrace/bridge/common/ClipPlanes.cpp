@@ -27,11 +27,25 @@ void ClipPlanes::applyUnit(double unit)
         plane.w /= unit;
 }
 
-std::vector<Vec4d> ClipPlanes::planesOn(const GraphState& state) const
+void ClipPlanes::take(const ClipPlanes& other, uint64_t numbers)
+{
+    for (unsigned int i = 0; i < kClipPlanes; ++i)
+        if (numbers >> i & 1) _planes[i] = other._planes[i];
+}
+
+uint64_t ClipPlanes::differences(const ClipPlanes& other) const
+{
+    uint64_t numbers = 0;
+    for (unsigned int i = 0; i < kClipPlanes; ++i)
+        if (_planes[i] != other._planes[i]) numbers |= uint64_t(1) << i;
+    return numbers;
+}
+
+std::vector<Vec4d> ClipPlanes::planesOf(uint64_t numbers) const
 {
     std::vector<Vec4d> planes;
     for (unsigned int i = 0; i < kClipPlanes; ++i)
-        if (state.isOn(kClipPlaneBit + i) && _planes[i] != Vec4d(0.0)) planes.push_back(_planes[i]);
+        if ((numbers >> i & 1) && _planes[i] != Vec4d(0.0)) planes.push_back(_planes[i]);
     return planes;
 }
 

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 
+#include <osg/ClipNode>
 #include <osg/ClipPlane>
 #include <osg/Matrixd>
 
@@ -20,6 +21,16 @@ inline uint64_t clipPlanesOn(const GraphState& state)
     return state.modesOn >> kClipPlaneBit & ((uint64_t(1) << kClipPlanes) - 1);
 }
 
+/// Returns the numbers of the planes of a node, as bits; those that are too large are left out.
+inline uint64_t planeNumbers(const osg::ClipNode& node)
+{
+    uint64_t numbers = 0;
+    for (const osg::ref_ptr<osg::ClipPlane>& plane : node.getClipPlaneList())
+        if (plane && plane->getClipPlaneNum() < kClipPlanes)
+            numbers |= uint64_t(1) << plane->getClipPlaneNum();
+    return numbers;
+}
+
 /// Keeps clip planes as OpenGL does: by number, the last one set stays, wherever in the graph it
 /// stands; a drawable is cut by the planes that its state has switched on. Planes that nobody has
 /// set cut nothing.
@@ -32,8 +43,15 @@ public:
     /// Divides lengths by unit from now on.
     void applyUnit(double unit);
 
-    /// Returns the planes that are on; in engine space each keeps (x, y, z, 1) . plane >= 0.
-    std::vector<Vec4d> planesOn(const GraphState& state) const;
+    /// Takes over the planes of these numbers, as bits.
+    void take(const ClipPlanes& other, uint64_t numbers);
+
+    /// Returns the numbers, as bits, of the planes that differ.
+    uint64_t differences(const ClipPlanes& other) const;
+
+    /// Returns the planes of these numbers, as bits, that are set; in engine space each keeps
+    /// (x, y, z, 1) . plane >= 0.
+    std::vector<Vec4d> planesOf(uint64_t numbers) const;
 
 private:
     std::array<Vec4d, kClipPlanes> _planes{}; // 0 0 0 0 keeps everything

@@ -8,6 +8,7 @@
 #include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/RayTracedScene>
 
+#include <osg/ClipNode>
 #include <osg/Geode>
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
@@ -52,6 +53,7 @@ NodeKind kindOf(const osg::Node& node)
     if (type == typeid(osg::Group) || type == typeid(osg::Geode)) return NodeKind::Group;
     if (type == typeid(osg::Switch)) return NodeKind::Switch;
     if (type == typeid(osg::LightSource)) return NodeKind::Light;
+    if (type == typeid(osg::ClipNode)) return NodeKind::Clip;
     if (type == typeid(AreaLight)) return NodeKind::AreaLight;
     if (type == typeid(EnvironmentLight)) return NodeKind::Environment;
     if (type == typeid(MediumVolume)) return NodeKind::Volume;

@@ -16,7 +16,8 @@ enum class NodeKind : uint8_t
     Switch,
     MatrixTransform,
     PositionAttitudeTransform,
-    Light, ///< the last kind that is a group
+    Light,
+    Clip, ///< the last kind that is a group
     AreaLight,
     Environment,
     Volume, ///< a MediumVolume, which changes as lights do

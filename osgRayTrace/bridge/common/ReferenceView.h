@@ -46,6 +46,13 @@ private:
     mutable std::unique_ptr<osg::CullStack> _stack;
 };
 
+/// Returns the transform from eye to world space. Without a view the eye looks along the world's
+/// axes.
+inline osg::Matrixd worldFromEye(const std::optional<ReferenceView>& view, const osg::Vec3d& eye)
+{
+    return view ? osg::Matrixd::inverse(view->viewFromWorld) : osg::Matrixd::translate(eye);
+}
+
 /// Returns the world matrix below a transform at worldFromOuter. A transform with a frame of its
 /// own is in eye space, as in OSG; without a view it is in world space.
 osg::Matrixd worldFromLocal(const osg::Transform& node, const osg::Matrixd& worldFromOuter,

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialList.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/convert/ClippedUse.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
@@ -43,6 +44,7 @@ struct ConversionCaches
     uint64_t staticVertices = 0;
     int staticBuilds = 0;     ///< builds of a large static BVH after something left it
     bool noStaticBvh = false; ///< true: there is no static BVH any more
+    uint64_t movedPlanes = 0; ///< numbers, as bits, of clip planes that have moved: see ClippedUse
 };
 
 /// Records the static meshes. A large static BVH that must be built time and again is given up.
@@ -59,6 +61,10 @@ struct ConvertedGraph
     ConversionCounts lightCounts;        ///< counts of setLights
     std::optional<osg::Vec4> clearColor; ///< CollectedGraph::clearColor
     PlacedTexGens texGens;
+    ClipPlanes clipPlanes;
+    uint64_t cuttingPlanes = ~uint64_t(0); ///< CollectedGraph::cuttingPlanes; all: not converted
+    uint64_t unwatchedPlanes = 0;          ///< CollectedGraph::unwatchedPlanes
+    std::vector<ClippedUse> clipped;
     CullWatch cullWatch;
     /// CollectedGraph::inScene; nothing: no conversion has come to its end.
     std::optional<std::unordered_set<const osg::Node*>> inScene;

@@ -38,10 +38,4 @@ bool setsColor(const CollectedGraph& graph)
     return anyUse(graph, setsCurrentColor);
 }
 
-bool hasClipping(const std::vector<GraphState>& states)
-{
-    return std::any_of(states.begin(), states.end(),
-                       [](const GraphState& state) { return clipPlanesOn(state) != 0; });
-}
-
 } // namespace osgRayTrace::engine

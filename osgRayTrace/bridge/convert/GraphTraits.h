@@ -16,8 +16,4 @@ bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule);
 /// Returns whether a material makes another colour current, see MaterialRules.
 bool setsColor(const CollectedGraph& graph);
 
-/// Returns whether a state clips, because the effect of clip planes depends on the place of a
-/// geometry.
-bool hasClipping(const std::vector<GraphState>& states);
-
 } // namespace osgRayTrace::engine

@@ -178,6 +178,8 @@ void SceneBuilder::putFlatFirst()
         renumber(instance);
     for (ConversionCaches::Quad& quad : _caches.areaLights)
         renumber(quad.instance);
+    for (ClippedUse& use : _convertedGraph.clipped)
+        renumber(use.instance);
 }
 
 /// Puts the planes that cross the geometry into the request, which is for engine space. Returns how
@@ -185,15 +187,23 @@ void SceneBuilder::putFlatFirst()
 Clipping SceneBuilder::clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                               MeshRequest& request)
 {
-    std::vector<Vec4d> planes = _graph.clipPlanes.planesOn(_graph.states[use.state]);
-    if (planes.empty()) return Clipping::None;
-    const osg::Array* positions = positionArray(*geometry.geometry);
-    const bool bounded = positions && geometry.bounds->count == positions->getNumElements();
+    std::vector<Vec4d> planes = _graph.clipPlanes.planesOf(clipPlanesOn(_graph.states[use.state]));
     const Clipping clipping =
-        bounded ? clippingOf(*geometry.bounds, use.engineFromLocal, planes) : Clipping::Partly;
+        clippingOf(*geometry.geometry, *geometry.bounds, use.engineFromLocal, planes);
     if (clipping == Clipping::Wholly) reportOf(geometry).count("not-traced.clipped-away");
     if (clipping == Clipping::Partly) request.clipPlanes = std::move(planes);
     return clipping;
+}
+
+/// Records a use for which planes are on, and which has just been added, for ScenePatcher.
+void SceneBuilder::recordClipped(const CollectedGeometry& geometry, const GeometryUse& use,
+                                 const MeshRequest& request, uint32_t variant, Clipping clipping,
+                                 bool own)
+{
+    const uint64_t numbers = clipPlanesOn(_graph.states[use.state]);
+    if (numbers == 0) return;
+    _convertedGraph.clipped.push_back({geometry.geometry, use.engineFromLocal, numbers, request,
+                                       variant, clipping, own, _instances.back()});
 }
 
 /// Adds a geometry. A still geometry that is used once gets positions in engine space, which are
@@ -209,7 +219,8 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
     for (const GeometryUse& use : geometry.uses)
-        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f;
+        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f &&
+                            clipPlanesOn(_graph.states[use.state]) == 0;
     if (isPlaced(geometry))
         addPlacedUses(geometry);
     else
@@ -217,12 +228,14 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
         const GeometryUse& use = geometry.uses.front();
         MeshRequest request = requestFor(geometry, use.engineFromLocal);
         request.depthBias = depthBias(_graph.states[use.state]);
-        if (clipBy(geometry, use, request) == Clipping::Wholly)
+        const Clipping clipping = clipBy(geometry, use, request);
+        if (clipping == Clipping::Wholly)
             addNothing(geometry, use);
         else
             addBaked(geometry, use,
                      _caches.geometries.mesh(*geometry.geometry, kOwnVariant, request,
                                              geometry.path, reportOf(geometry)));
+        recordClipped(geometry, use, request, kOwnVariant, clipping, true);
     }
     traced.plain = _report.remarks() == remarks;
 }
@@ -238,6 +251,8 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
     reportOf(geometry).count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
+    if (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes)
+        placeInstance(instance, osg::Matrixd()); // the static BVH must not be built time and again
     addInstance(geometry, use, instance);
 }
 
@@ -265,6 +280,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         if (clipping == Clipping::Wholly)
         {
             addNothing(geometry, use);
+            recordClipped(geometry, use, own, variant, clipping, true);
             continue;
         }
         Instance instance;
@@ -276,6 +292,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
             addBaked(
                 geometry, use,
                 _caches.geometries.mesh(*geometry.geometry, variant, own, geometry.path, report));
+            recordClipped(geometry, use, own, variant, clipping, true);
             continue;
         }
         if (meshIndex == kInvalid)
@@ -285,6 +302,7 @@ void SceneBuilder::addPlacedUses(const CollectedGeometry& geometry)
         }
         instance.mesh = meshIndex;
         addInstance(geometry, use, instance);
+        recordClipped(geometry, use, own, variant, clipping, false);
     }
 }
 

@@ -51,6 +51,8 @@ private:
     void warnIfCoarse(const CollectedGeometry& geometry);
     Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                     MeshRequest& request);
+    void recordClipped(const CollectedGeometry& geometry, const GeometryUse& use,
+                       const MeshRequest& request, uint32_t variant, Clipping clipping, bool own);
     void addPlacedUses(const CollectedGeometry& geometry);
     void addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
                   const std::shared_ptr<const Mesh>& mesh);

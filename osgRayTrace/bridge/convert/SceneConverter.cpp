@@ -129,7 +129,8 @@ CullChanges SceneConverter::lookInCull(const ViewingConditions& conditions)
 ConvertedNodes SceneConverter::convertedNodes() const
 {
     const ConvertedGraph& graph = _implementation->convertedGraph;
-    return {graph.cullWatch.captured(), graph.inScene ? &*graph.inScene : nullptr};
+    return {graph.cullWatch.captured(), graph.inScene ? &*graph.inScene : nullptr,
+            graph.cuttingPlanes};
 }
 
 void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& changes) const
@@ -196,12 +197,15 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.caches.geometries.end();
     ConversionResult result;
     if (input.picks) result.pickIndex = std::make_shared<PickIndex>(graph, builder.instances());
-    state.ordinary = rules.unit == 1.0 && lengths.areOrdinary() && !hasClipping(graph.states);
+    state.ordinary = rules.unit == 1.0 && lengths.areOrdinary();
     state.convertedGraph.lights = std::move(graph.lights);
     state.convertedGraph.lightCounts = lightReport.counts();
     state.convertedGraph.clearColor = graph.clearColor;
     state.convertedGraph.inScene = std::move(graph.inScene);
     state.convertedGraph.texGens = graph.texGens;
+    state.convertedGraph.clipPlanes = graph.clipPlanes;
+    state.convertedGraph.cuttingPlanes = graph.cuttingPlanes;
+    state.convertedGraph.unwatchedPlanes = graph.unwatchedPlanes;
     state.convertedGraph.cullWatch.record(graph,
                                           input.materials ? input.materials->reads : nullptr);
     state.convertedGraph.index.addUntraced(graph.rasterized, graph.leftGeometries);

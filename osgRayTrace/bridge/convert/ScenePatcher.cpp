@@ -75,6 +75,7 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
         if (!splice(one)) return nullptr;
     takeMaterials();
     if (!moveAndDeform(changes) || !changeStates(changes.stateChanges)) return nullptr;
+    if (!recut(changes.clips)) return nullptr;
     if (changes.lights && !relightLamps()) return nullptr;
     takeMaterials();
     if (changes.view) setBackground();

@@ -52,6 +52,8 @@ private:
     ConversionCause addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
                                 const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
+    bool recut(const std::vector<PlacedClip>& clips);
+    bool recut(ClippedUse& use);
     bool changeStates(const std::vector<StateChange>& uses);
     bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
                      ConversionReport& report);

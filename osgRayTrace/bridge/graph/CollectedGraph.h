@@ -114,6 +114,9 @@ struct CollectedGraph
     std::vector<GraphState> states;
     PlacedTexGens texGens; ///< last generation of each unit, as OpenGL keeps it
     ClipPlanes clipPlanes;
+    uint64_t cuttingPlanes = 0; ///< numbers, as bits, of planes that are on for some use
+    /// Numbers, as bits, of planes that nodes set into which GraphWatch does not look.
+    uint64_t unwatchedPlanes = 0;
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult

@@ -60,6 +60,7 @@ bool GraphCollector::collectAt(const osg::NodePath& path)
 CollectedGraph GraphCollector::take()
 {
     _graph.states = _states.states();
+    recordCuttingPlanes();
     _report.setPlace({});
     _materials.reportRules(_report);
     return std::move(_graph);
@@ -133,7 +134,7 @@ void GraphCollector::apply(osg::ClearNode& node)
 
 void GraphCollector::apply(osg::ClipNode& node)
 {
-    recordInScene();
+    recordPlanes(planeNumbers(node));
     rasterize(RasterizedPart::PlaceState);
     const bool inEyeSpace = node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
     const osg::Matrixd engineFromPlane =
@@ -349,14 +350,6 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     }
     rasterize(); // leaves that only work in the cull traversal are kept, too
     return true;
-}
-
-/// Returns the transform from eye to world space. Without a view the eye looks along the world's
-/// axes.
-osg::Matrixd GraphCollector::worldFromEye() const
-{
-    return _input.view ? osg::Matrixd::inverse(_input.view->viewFromWorld)
-                       : osg::Matrixd::translate(_input.eye);
 }
 
 osg::Matrixd GraphCollector::engineFromLocal() const

@@ -114,11 +114,13 @@ private:
     float pointRadiusOf(const osg::Geometry& geometry);
     void recordInScene();
     void recordAllInScene();
+    void recordPlanes(uint64_t numbers);
+    void recordCuttingPlanes();
     void collectUse(const osg::Geometry& geometry, uint32_t state, bool proxy);
     bool isProxied(osg::Drawable& drawable);
     bool isProxied(const CulledLeaf& leaf);
     void warnIfForced(const char* what);
-    osg::Matrixd worldFromEye() const;
+    osg::Matrixd worldFromEye() const { return engine::worldFromEye(_input.view, _input.eye); }
     osg::Matrixd engineFromLocal() const;
     uint32_t pickPath();
     std::string path() const { return pathText(getNodePath()); }
@@ -140,6 +142,9 @@ private:
     RuleCaches& _rules;
     MaterialAssignment _materials; ///< assignment that keeps its additions to the states
     CollectedGraph _graph;
+    /// Outermost nodes of unknown classes with clip nodes at or below them, and the numbers of
+    /// their planes, as bits.
+    std::vector<std::pair<const osg::Node*, uint64_t>> _unwatchedClips;
     std::map<std::pair<const osg::Geometry*, uint64_t>, std::size_t> _indexOf; // key with restart
 };
 
