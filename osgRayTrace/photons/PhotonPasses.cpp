@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/sampling/Hash.h"
+#include "osgRayTrace/sampling/Warp.h"
 
 #include <algorithm>
 #include <chrono>
@@ -95,6 +96,34 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
     return radii[kSamples / 2];
 }
 
+/// Returns the radius around lines that cross beams in random directions which holds
+/// kDensityPhotons other beams, in the median.
+float densityRadius(const std::vector<PhotonBeam>& beams, float most, const Workers& workers)
+{
+    constexpr std::size_t kLines = 96;
+    if (beams.empty()) return most;
+    std::vector<float> radii(kLines);
+    workers.forEach(kLines,
+                    [&](std::size_t s)
+                    {
+                        const uint32_t key = hash(static_cast<uint32_t>(s), 0x6265616du);
+                        const PhotonBeam& beam = beams[key % beams.size()];
+                        const float along = unitFloat(hash(key + 1)) * beam.length;
+                        const Vec3 direction = squareToCone(
+                            Vec2(unitFloat(hash(key + 2)), unitFloat(hash(key + 3))), 2.0f);
+                        radii[s] = distanceToBeams(beams, beam.origin + beam.direction * along,
+                                                   direction, kDensityPhotons + 1);
+                    });
+    std::nth_element(radii.begin(), radii.begin() + kLines / 2, radii.end());
+    return std::min(radii[kLines / 2], most);
+}
+
+/// The largest radius of a beam's kernel, over that of the scene.
+constexpr float kWidestBeam = 0.02f;
+
+/// The largest length of the pieces into which beams are cut, over the radius of the scene.
+constexpr float kBeamPiece = 0.15f;
+
 } // namespace
 
 bool samePhotons(const PhotonScene& a, const PhotonScene& b)
@@ -133,6 +162,7 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const Sphere& sphere = _emitter->scene();
+    _density->beamRadius = densityRadius(_first->beams, kWidestBeam * sphere.radius, workers);
     _density->sceneRadius = sphere.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
@@ -163,6 +193,8 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     auto pass = std::make_shared<PhotonPass>();
     pass->map = PhotonMap(photons.photons, cellSize, workers,
                           scene.options.photonGuiding && index < kFirst);
+    pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
+    pass->cutWalks = photons.cutWalks;
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -242,7 +274,7 @@ std::size_t PhotonPasses::keptBytes() const
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
     std::size_t sum = 0;
     for (const Entry& entry : _kept)
-        sum += entry.pass->map.bytes();
+        sum += entry.pass->map.bytes() + entry.pass->volume.bytes();
     return sum;
 }
 

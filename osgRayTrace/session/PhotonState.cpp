@@ -163,6 +163,9 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
+    const float width = pixelWidth(context, context.width, context.height);
+    _beamRadius =
+        std::clamp(wanted > 0.0f ? wanted : std::max(density.beamRadius, width), _floor, ceiling);
 }
 
 void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
@@ -182,7 +185,8 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
     if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
     _projection = PixelProjection(context.camera);
-    if (context.options.integrator == IntegratorKind::Ppm)
+    // What media scatter towards a ray is sampled anew in each pass.
+    if (context.options.integrator == IntegratorKind::Ppm && !traced->traits().media)
         _hitPoints.resize(2 * _pixels / kTilePixels);
 }
 
@@ -219,8 +223,12 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
+    context.volumePhotons = _pass->volume.isEmpty() ? nullptr : &_pass->volume;
+    const auto beamScale = static_cast<float>(beamRadiusScale(pass));
+    context.beamRadius = std::max(_floor, _beamRadius * beamScale);
+    context.leastSine = 1e-3f * beamScale;
     context.projection = &_projection;
-    _stored |= _pass->map.size() > 0;
+    _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;
 }
 

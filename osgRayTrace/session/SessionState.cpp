@@ -257,7 +257,8 @@ PassContext SessionState::contextOfPass(int pass) const
     context.options.integrator = progress.integrator;
     if (filmOptions.moving) context.options.photonGuiding = false; // what photons lit is gone
     context.key = passKey(filmSeed, pass);
-    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
+    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm &&
+                             !filmScene->traits().media; // see PhotonState::choose
     const int paths = sharesPaths ? sharedPaths(pass) : pass;
     context.pathKey = passKey(filmSeed, paths);
     context.coneScale = 1.0f / std::sqrt(static_cast<float>(paths + 1));

@@ -39,13 +39,14 @@ float largestOf(Vec3 v)
 class MediumWalk
 {
 public:
-    MediumWalk(Tile& tile, PathBlock& block, int number, bool last)
+    MediumWalk(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
         : _tile(tile),
           _block(block),
           _traced(*tile.context.traced),
           _media(_traced.media()),
           _number(number),
           _last(last),
+          _use(use),
           _collides(number + 1 < tile.context.options.maxBounces),
           _open(block.active)
     {
@@ -68,6 +69,7 @@ private:
 
     void findSegments(int step);
     void addLight();
+    void addPhotonBeams(int step);
     End travel(int i);
     End collide(int i, float distance);
     End meet(int i);
@@ -95,6 +97,7 @@ private:
     const MediumTable& _media;
     const int _number;
     const bool _last;     ///< rays find emission alone
+    const PhotonUse _use; ///< of the photons that rays look up
     const bool _collides; ///< paths have an edge left for light behind a collision
     LaneMask _open, _collided = 0;
     FloatLanes _begin; ///< where on the ray the stretch begins
@@ -111,7 +114,7 @@ void MediumWalk::findSegments(int step)
     _segments.ray = &ray;
     _segments.lanes = 0;
     _segments.eachLight = step == 0;
-    _segments.withMis = _collides;
+    _segments.withMis = _collides && _use != PhotonUse::Indirect;
     for (const int i : lanesIn(_open))
     {
         const MediumId body = bodyAt(i);
@@ -151,6 +154,16 @@ void MediumWalk::addLight()
         _tile.sums.add(_block.flagsOf(i), laneOf(radiance, i));
 }
 
+/// Adds the light that photons bring to the stretches of paths that have looked up none before.
+void MediumWalk::addPhotonBeams(int step)
+{
+    if (_use == PhotonUse::None || !_tile.context.volumePhotons) return;
+    LaneMask lanes = 0;
+    for (const int i : lanesIn(_segments.lanes))
+        lanes |= static_cast<LaneMask>(!_block.flagsOf(i).hasTaken()) << i;
+    addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
+}
+
 /// Takes a path along its stretch.
 MediumWalk::End MediumWalk::travel(int i)
 {
@@ -159,7 +172,7 @@ MediumWalk::End MediumWalk::travel(int i)
     const MediumRecord& medium = _media[_segments.media[i]];
     const float length = part.end - part.begin;
     const Vec3 throughput = laneOf(_block.throughput, i);
-    if (!medium.scatters || !_collides)
+    if (!medium.scatters || !_collides || _use == PhotonUse::Indirect)
     {
         setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
         return meet(i);
@@ -201,7 +214,9 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.
     _block.pdfW[i] = found * evalPhase(medium.anisotropy, glm::dot(before, after));
-    _block.flags[i] = _block.flagsOf(i).collided().word();
+    const PathFlags path = _block.flagsOf(i);
+    _block.flags[i] =
+        (_use == PhotonUse::Caustics ? path.collidedAmongPhotons() : path.collided()).word();
     spawn(i, {point, 0.0f}, after);
     return End::GoesOn;
 }
@@ -307,6 +322,7 @@ LaneMask MediumWalk::run()
     {
         findSegments(step);
         addLight();
+        addPhotonBeams(step);
         LaneMask next = 0;
         for (const int i : lanesIn(_open))
         {
@@ -322,10 +338,10 @@ LaneMask MediumWalk::run()
 
 } // namespace
 
-LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last)
+LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
 {
     const LaneMask before = block.active;
-    const LaneMask collided = MediumWalk(tile, block, number, last).run();
+    const LaneMask collided = MediumWalk(tile, block, number, last, use).run();
     for (const int i : lanesIn(number == 0 ? before : 0))
     {
         // The background shows through what is left of its light, see addEnvironment.

@@ -7,7 +7,8 @@ namespace osgRayTrace::engine
 
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
 {
-    if (traits.media && photonUse(wanted) != PhotonUse::None) return IntegratorKind::Path;
+    // Light that media emit comes with no photons: paths find it, before they look up any.
+    if (traits.glowing && photonUse(wanted) == PhotonUse::Indirect) return IntegratorKind::Path;
     if (wanted != IntegratorKind::Automatic) return wanted;
     if (traits.scattering) return IntegratorKind::Path;
     if (!traits.physical) return IntegratorKind::Whitted;
