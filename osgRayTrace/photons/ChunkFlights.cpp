@@ -38,6 +38,9 @@ namespace
 /// Beams end where so little of their light is left.
 constexpr float kBeamEnd = 9.21f; ///< optical depth: exp(-9.21) = 1e-4
 
+/// Of the collisions of a photon between two surfaces so many are stored; later ones by chance.
+constexpr float kSurePoints = 8.0f;
+
 /// Of the ways of a photon between two surfaces so many leave a beam each; later ones by chance.
 constexpr float kSureBeams = 4.0f;
 
@@ -60,7 +63,7 @@ enum FlightDimension : uint32_t
 {
     FlightLength = 0, ///< x: free flight, y: Russian roulette
     FlightPhase = 1,
-    FlightBeam = 2, ///< x: whether the beam is kept
+    FlightKept = 2, ///< whether x: the beam, y: the collision is stored
 };
 
 } // namespace
@@ -68,8 +71,10 @@ enum FlightDimension : uint32_t
 /// Holds the flights of a block up to the next surfaces.
 struct ChunkTracer::Flights
 {
+    Flights(const MediumTable& m, int b) : media(m), bounce(b) {}
+
     const MediumTable& media;
-    int bounce;
+    const int bounce;
     FloatLanes begin;            ///< where on the ray the stretch begins
     uint32_t steps[kLanes] = {}; ///< collisions
     MediumId within[kLanes];
@@ -111,7 +116,7 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     if (isDirect || photon >= beams || medium.isDense) return;
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSureBeams / static_cast<float>(step + 1));
-    if (kept < 1.0f && !(flightNumbers(photon, flights.bounce, step, FlightBeam).x < kept)) return;
+    if (kept < 1.0f && !(flightNumbers(photon, flights.bounce, step, FlightKept).x < kept)) return;
     const RayPart& part = flights.parts[i];
     const RayBlock& ray = _rays.ray;
     PhotonBeam beam;
@@ -129,6 +134,23 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
         ++_chunk.dropped;
     else if (beam.length > 0.0f)
         _chunk.beams.push_back(beam);
+}
+
+/// Stores a photon at a collision with a dense medium.
+void ChunkTracer::storePoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
+                             Vec3 power)
+{
+    const uint32_t step = flights.steps[i];
+    const uint32_t edges = edgesInMedium(block.met[i], block.late[i]);
+    if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
+    const float kept = std::min(1.0f, kSurePoints / static_cast<float>(step + 1));
+    if (kept < 1.0f && !(flightNumbers(block.photon[i], flights.bounce, step, FlightKept).y < kept))
+        return;
+    const VolumePoint point{at, laneOf(block.direction, i), power / kept, flights.within[i], edges};
+    if (isFinite(point.power) && isFinite(at))
+        _chunk.points.push_back(point);
+    else
+        ++_chunk.dropped;
 }
 
 /// Takes a photon along its stretch.
@@ -161,7 +183,7 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
                                             float distance, float before)
 {
     const MediumRecord& medium = flights.media[flights.within[i]];
-    const uint32_t photon = block.photon[i], step = flights.steps[i]++;
+    const uint32_t photon = block.photon[i], step = flights.steps[i];
     const bool first = flights.bounce == 0 && !((_collided >> i) & 1u);
     _collided |= 1u << i;
     block.direct[i] = 0;
@@ -170,6 +192,8 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     const Vec3 direction = laneOf(block.direction, i), point = origin + direction * distance;
     Vec3 power = laneOf(block.power, i);
     if (first) power *= fallenOff(block.light[i], point, distance);
+    if (medium.isDense && !first) storePoint(block, flights, i, point, power);
+    ++flights.steps[i];
     if (block.met[i] == 0)
         block.late[i] = std::min(2u, block.late[i] + 1);
     else if (block.met[i] == 1)
@@ -244,7 +268,7 @@ void ChunkTracer::traceOn(LaneMask lanes)
 void ChunkTracer::travel(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface)
 {
     const TracedScene& traced = _inputs.traced;
-    Flights flights{traced.media(), bounce};
+    Flights flights(traced.media(), bounce);
     std::fill_n(flights.begin.v, kLanes, 0.0f);
     loadRays(block, _rays);
     _oneSided = _seen = _collided = 0;

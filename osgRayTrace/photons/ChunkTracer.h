@@ -47,6 +47,7 @@ struct PhotonChunk
 {
     std::vector<Photon> photons;
     std::vector<PhotonBeam> beams;
+    std::vector<VolumePoint> points;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
@@ -104,6 +105,8 @@ private:
                       float before);
     FlightEnd meet(PhotonPathBlock& block, Flights& flights, int i);
     void storeBeam(const PhotonPathBlock& block, const Flights& flights, int i);
+    void storePoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
+                    Vec3 power);
     void traceOn(LaneMask lanes);
     Vec2 flightNumbers(uint32_t photon, int bounce, uint32_t step, uint32_t use) const;
     float fallenOff(uint32_t light, Vec3 point, float way) const;

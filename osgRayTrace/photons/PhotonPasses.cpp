@@ -36,7 +36,8 @@ bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
 /// reads a fifth of the memory.
 struct Positions
 {
-    explicit Positions(const std::vector<Photon>& photons)
+    template <class T>
+    explicit Positions(const std::vector<T>& photons)
         : x(photons.size()), y(photons.size()), z(photons.size())
     {
         for (std::size_t k = 0; k < photons.size(); ++k)
@@ -79,7 +80,7 @@ float distance2ToNeighbour(const Positions& p, std::size_t chosen, std::size_t n
     return nearest.front();
 }
 
-float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
+template <class T> float densityRadius(const std::vector<T>& photons, const Workers& workers)
 {
     if (photons.size() < 2) return 0.0f;
     constexpr std::size_t kSamples = 128;
@@ -162,7 +163,10 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const Sphere& sphere = _emitter->scene();
-    _density->beamRadius = densityRadius(_first->beams, kWidestBeam * sphere.radius, workers);
+    const float widest = kWidestBeam * sphere.radius;
+    const float apart = densityRadius(_first->points, workers);
+    _density->pointRadius = apart > 0.0f ? std::min(apart, widest) : widest;
+    _density->beamRadius = densityRadius(_first->beams, widest, workers);
     _density->sceneRadius = sphere.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
@@ -194,6 +198,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     pass->map = PhotonMap(photons.photons, cellSize, workers,
                           scene.options.photonGuiding && index < kFirst);
     pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
+    pass->volume.points = PointMap(photons.points);
     pass->cutWalks = photons.cutWalks;
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;

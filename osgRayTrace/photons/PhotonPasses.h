@@ -51,6 +51,7 @@ struct PhotonDensity
 {
     float radius = 0.0f; ///< holds kDensityPhotons photons of a pass around a photon, in the median
     float beamRadius = 0.0f;        ///< holds kDensityPhotons beams around a line, in the median
+    float pointRadius = 0.0f;       ///< the same for collisions with dense media as radius
     float sceneRadius = 0.0f;       ///< radius of a sphere that holds the scene
     float largestCoordinate = 0.0f; ///< largest absolute coordinate in that sphere
     bool emits = false;             ///< some light has power

@@ -167,6 +167,7 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
     for (PhotonChunk& chunk : chunks)
     {
         result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
+        result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
         result.cutWalks += chunk.cutWalks;
     }
     std::vector<std::size_t> begin(count + 1);

@@ -5,6 +5,7 @@
 #include "osgRayTrace/photons/BeamMap.h"
 #include "osgRayTrace/photons/Photon.h"
 #include "osgRayTrace/photons/PhotonUse.h"
+#include "osgRayTrace/photons/PointMap.h"
 
 #include <cstdint>
 #include <vector>
@@ -31,7 +32,8 @@ inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
 struct TracedPhotons
 {
     std::vector<Photon> photons;
-    std::vector<PhotonBeam> beams; ///< of the first photons, in media that are not dense
+    std::vector<PhotonBeam> beams;   ///< of the first photons, in media that are not dense
+    std::vector<VolumePoint> points; ///< in dense media
     uint64_t rays = 0;
     uint64_t cutWalks = 0;         ///< photons that ended within a medium: see kMostCollisions
     uint64_t dropped = 0;          ///< photons left out because their power is not finite

@@ -98,6 +98,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     result.maxBounces = options.maxBounces;
     result.seed = options.seed;
     result.photonGuiding = options.photonGuiding;
+    result.beams = static_cast<uint32_t>(std::max(1, options.photonBeams));
     return result;
 }
 
@@ -164,8 +165,10 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
     const float width = pixelWidth(context, context.width, context.height);
-    _beamRadius =
-        std::clamp(wanted > 0.0f ? wanted : std::max(density.beamRadius, width), _floor, ceiling);
+    const auto first = [&](float radius)
+    { return std::clamp(wanted > 0.0f ? wanted : std::max(radius, width), _floor, ceiling); };
+    _beamRadius = first(density.beamRadius);
+    _pointRadius = first(density.pointRadius);
 }
 
 void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
@@ -227,6 +230,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     const auto beamScale = static_cast<float>(beamRadiusScale(pass));
     context.beamRadius = std::max(_floor, _beamRadius * beamScale);
     context.leastSine = 1e-3f * beamScale;
+    context.pointRadius =
+        std::max(_floor, _pointRadius * static_cast<float>(pointRadiusScale(pass)));
     context.projection = &_projection;
     _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;

@@ -103,10 +103,15 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     if (!traced) return;
     progress.photonRadius = static_cast<float>(photons.radius() * filmScene->scene().unit);
     progress.storedPhotons = traced->map.size();
+    progress.storedBeams = traced->volume.beams.size();
+    progress.storedPoints = traced->volume.points.size();
+    progress.beamRadius = static_cast<float>(
+        progress.storedBeams ? double(context.beamRadius) * filmScene->scene().unit : 0.0);
     progress.photonBytes = photons.keptBytes();
     if (pass < photonsCounted) return;
     progress.rays.photon += traced->rays;
     progress.droppedSamples += traced->dropped;
+    progress.cutWalks += traced->cutWalks;
     photonsCounted = pass + 1;
 }
 

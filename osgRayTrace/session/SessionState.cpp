@@ -99,7 +99,8 @@ Vec3 eyeOf(const View& view, const Scene& scene)
 MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, const SceneTraits& traits)
 {
     if (!traits.media) return MediumNote::None;
-    if (photonUse(wanted) != PhotonUse::None) return MediumNote::PathsInstead;
+    if (photonUse(wanted) != photonUse(chosen) && wanted != IntegratorKind::Automatic)
+        return MediumNote::PathsInstead;
     const bool single = chosen == IntegratorKind::Whitted && traits.scattering;
     return single ? MediumNote::SingleOnly : MediumNote::None;
 }

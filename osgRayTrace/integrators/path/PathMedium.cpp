@@ -21,6 +21,7 @@
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/Transmittance.h"
+#include "osgRayTrace/photons/VolumePhotons.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ private:
     void findSegments(int step);
     void addLight();
     void addPhotonBeams(int step);
+    void addPhotonPoints(int i, Vec3 point, Vec3 throughput);
     End travel(int i);
     End collide(int i, float distance);
     End meet(int i);
@@ -164,6 +166,25 @@ void MediumWalk::addPhotonBeams(int step)
     addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
 }
 
+/// Adds the light that photons bring to the first collision of a path with a dense medium.
+/// throughput: after the collision.
+void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput)
+{
+    const PassContext& context = _tile.context;
+    if (_use == PhotonUse::None || !context.volumePhotons || _block.flagsOf(i).hasTaken()) return;
+    PointQuery query;
+    query.position = point;
+    query.towards = -directionOf(_block.rays.ray, i);
+    query.radius = context.pointRadius;
+    query.medium = _segments.media[i];
+    query.anisotropy = _media[query.medium].anisotropy;
+    query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - _number);
+    const Vec3 radiance = throughput * context.volumePhotons->points.gather(query);
+    _tile.sums.add(_block.flagsOf(i), radiance);
+    if (GatheredPhotons* gathered = _tile.result.photons.gathered)
+        gathered->carried += luminance(radiance);
+}
+
 /// Takes a path along its stretch.
 MediumWalk::End MediumWalk::travel(int i)
 {
@@ -172,7 +193,8 @@ MediumWalk::End MediumWalk::travel(int i)
     const MediumRecord& medium = _media[_segments.media[i]];
     const float length = part.end - part.begin;
     const Vec3 throughput = laneOf(_block.throughput, i);
-    if (!medium.scatters || !_collides || _use == PhotonUse::Indirect)
+    const bool beamsOnly = _use == PhotonUse::Indirect && !medium.isDense;
+    if (!medium.scatters || !_collides || beamsOnly)
     {
         setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
         return meet(i);
@@ -189,9 +211,14 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const MediumRecord& medium = _media[_segments.media[i]];
     const MediumNumbers& numbers = _segments.numbers[i];
     Vec3 throughput = laneOf(_block.throughput, i) * medium.sigmaS;
+    const RayBlock& ray = _block.rays.ray;
+    const Vec3 before = directionOf(ray, i);
+    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
+    if (medium.isDense) addPhotonPoints(i, point, throughput);
     const float found = collisionProbability(_tile.context, _segments, i);
     ++_tile.counts.collisions;
     _collided |= 1u << i;
+    if (_use == PhotonUse::Indirect) return End::Dies; // photons have all other light
     if (++_collisions[i] > kMostCollisions)
     {
         ++_tile.counts.cutWalks;
@@ -207,9 +234,6 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     }
     if (throughput == Vec3(0.0f)) return End::Dies;
     setLane(_block.throughput, i, throughput);
-    const RayBlock& ray = _block.rays.ray;
-    const Vec3 before = directionOf(ray, i);
-    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
     const Vec2 u = numbers.at(MediumPhase);
     const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.

@@ -10,12 +10,11 @@ IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits
     // Light that media emit comes with no photons: paths find it, before they look up any.
     if (traits.glowing && photonUse(wanted) == PhotonUse::Indirect) return IntegratorKind::Path;
     if (wanted != IntegratorKind::Automatic) return wanted;
-    if (traits.scattering) return IntegratorKind::Path;
-    if (!traits.physical) return IntegratorKind::Whitted;
     const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
     const bool caustics = (lights && (traits.specular || traits.transmission)) ||
                           ((traits.areaLights || traits.deltaLights) && traits.glossy);
-    return caustics && !traits.media ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+    if (!traits.scattering && !traits.physical) return IntegratorKind::Whitted;
+    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 
 bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits)

@@ -44,8 +44,9 @@ struct PassContext
     float largestPhotonRadius = 0.0f;
     /// Photons of the pass within media; null: there are none.
     const VolumePhotons* volumePhotons = nullptr;
-    float beamRadius = 0.0f; ///< of the kernel of beams in this pass [length]
-    float leastSine = 1e-3f; ///< see BeamQuery
+    float beamRadius = 0.0f;  ///< of the kernel of beams in this pass [length]
+    float pointRadius = 0.0f; ///< of spheres in dense media in this pass [length]
+    float leastSine = 1e-3f;  ///< see BeamQuery
 };
 
 } // namespace osgRayTrace::engine
