@@ -42,29 +42,6 @@ LaneMask nodesNear(const BoxTree::Node& node, const RayBundle& bundle, float dis
     return near;
 }
 
-/// Returns whether a piece may come within a distance of the rays of a bundle: whether the lines of
-/// piece and axis do, up to what the bundle is wide where the piece ends.
-OSGRAYTRACE_INLINE bool isNear(const BeamPiece& piece, const RayBundle& bundle, float distance)
-{
-    const PlainVec3 origin = plainOf(bundle.origin), axis = plainOf(bundle.axis);
-    const PlainVec3 w = piece.origin - origin;
-    const PlainVec3 low = mad(piece.direction, piece.begin, w);
-    const PlainVec3 high = mad(piece.direction, piece.end, w);
-    const float lowAlong = dot(low, axis), highAlong = dot(high, axis);
-    const float nearest = lowAlong < highAlong ? lowAlong : highAlong;
-    const float farthest = lowAlong < highAlong ? highAlong : lowAlong;
-    const float reach =
-        distance + bundle.radius + bundle.slope * (std::max(farthest, 0.0f) + distance);
-    if (farthest < bundle.begin - reach || nearest > bundle.end + reach) return false;
-    // The piece, seen along the axis, is a segment in a plane: its distance from the axis.
-    const PlainVec3 a = mad(axis, -lowAlong, low), b = mad(axis, -highAlong, high);
-    const PlainVec3 ab = b - a;
-    const float length2 = dot(ab, ab);
-    const float s = length2 > 0.0f ? std::clamp(-dot(a, ab) / length2, 0.0f, 1.0f) : 0.0f;
-    const PlainVec3 off = mad(ab, s, a);
-    return dot(off, off) <= reach * reach * 1.0001f;
-}
-
 /// Holds where the rays of a query are nearest to a beam.
 struct Crossings
 {
@@ -215,34 +192,103 @@ BeamMap::BeamMap(const std::vector<PhotonBeam>& beams, float pieceLength) : _bea
     }
     std::vector<uint32_t> order;
     _tree = BoxTree(boxes, order);
-    _pieces.reserve(pieces.size());
     for (const uint32_t k : order)
-        _pieces.push_back(pieces[k]);
+        _pieces.add(pieces[k]);
 }
 
-void BeamMap::find(const RayBundle& bundle, float distance, std::vector<BeamPiece>& found) const
+void BeamPieces::clear()
+{
+    _pieces.clear();
+    _ends.clear();
+}
+
+void BeamPieces::add(const BeamPiece& piece)
+{
+    const auto lane = static_cast<int>(_pieces.size() % kLanes);
+    if (lane == 0) _ends.emplace_back();
+    const PlainVec3 begin = mad(piece.direction, piece.begin, piece.origin);
+    const PlainVec3 end = mad(piece.direction, piece.end, piece.origin);
+    for (int i = lane; i < (lane == 0 ? kLanes : lane + 1); ++i) // lanes behind the last are read
+    {
+        setLane(_ends.back().begin, i, begin);
+        setLane(_ends.back().end, i, end);
+    }
+    _pieces.push_back(piece);
+}
+
+/// Tests the segments that the pieces are as seen along the axis: segments in a plane, which must
+/// come as near to the axis as the bundle is wide where the piece is farthest.
+OSGRAYTRACE_KERNEL
+LaneMask BeamPieces::near(std::size_t first, const RayBundle& bundle, float distance) const
+{
+    const Ends& ends = _ends[first / kLanes];
+    const PlainVec3 origin = plainOf(bundle.origin), axis = plainOf(bundle.axis);
+    const float begin = bundle.begin, end = bundle.end, slope = bundle.slope;
+    const float width = bundle.radius + distance + slope * distance;
+    LaneMask near = 0;
+    OSGRAYTRACE_SIMD_OR(near)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const PlainVec3 low = plainOf(ends.begin, i) - origin;
+        const PlainVec3 high = plainOf(ends.end, i) - origin;
+        const float lowAlong = dot(low, axis), highAlong = dot(high, axis);
+        const float nearest = lowAlong < highAlong ? lowAlong : highAlong;
+        const float farthest = lowAlong < highAlong ? highAlong : lowAlong;
+        const float reach = width + slope * (farthest > 0.0f ? farthest : 0.0f);
+        const PlainVec3 a = mad(axis, -lowAlong, low), b = mad(axis, -highAlong, high);
+        const PlainVec3 ab = b - a;
+        const float length2 = dot(ab, ab);
+        const float part = -dot(a, ab) / (length2 > 1e-30f ? length2 : 1e-30f);
+        const float most = part < 1.0f ? part : 1.0f;
+        const PlainVec3 off = mad(ab, most > 0.0f ? most : 0.0f, a);
+        near |= bitOfLane(maskOf(dot(off, off) <= reach * reach * 1.0002f) &
+                              maskOf(farthest >= begin - reach) & maskOf(nearest <= end + reach),
+                          i);
+    }
+    const std::size_t left = _pieces.size() - first;
+    return left < kLanes ? near & ((1u << left) - 1u) : near;
+}
+
+void BeamMap::find(const RayBundle& bundle, float distance, BeamPieces& found) const
 {
     found.clear();
     _tree.visit([&](const BoxTree::Node& node) { return nodesNear(node, bundle, distance); },
-                [&](std::size_t first, std::size_t count)
+                [&](std::size_t first, std::size_t)
                 {
-                    for (std::size_t k = first; k < first + count; ++k)
-                        if (isNear(_pieces[k], bundle, distance)) found.push_back(_pieces[k]);
+                    for (const int i : lanesIn(_pieces.near(first, bundle, distance)))
+                        found.add(_pieces[first + static_cast<std::size_t>(i)]);
                 });
 }
 
-OSGRAYTRACE_KERNEL
-void gatherBeams(const std::vector<BeamPiece>& pieces, const BeamQuery& query, Vec3Lanes& radiance)
+namespace
 {
-    for (int i = 0; i < kLanes; ++i)
-        radiance.x[i] = radiance.y[i] = radiance.z[i] = 0.0f;
+
+OSGRAYTRACE_KERNEL
+void gatherPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
+                  const BeamQuery& query, Vec3Lanes& radiance)
+{
     const auto mostEdges = static_cast<int32_t>(query.mostEdges);
     Crossings crossings;
-    for (const BeamPiece& piece : pieces)
+    for (const int k : lanesIn(near))
     {
+        const BeamPiece& piece = pieces[first + static_cast<std::size_t>(k)];
         if (piece.edges > mostEdges) continue;
         const LaneMask lanes = crossingsOf(piece, query, crossings);
         if (lanes) addCrossings(piece, query, lanes, crossings, radiance);
+    }
+}
+
+} // namespace
+
+void gatherBeams(const BeamPieces& pieces, const RayBundle& bundle, const BeamQuery& query,
+                 Vec3Lanes& radiance)
+{
+    for (int i = 0; i < kLanes; ++i)
+        radiance.x[i] = radiance.y[i] = radiance.z[i] = 0.0f;
+    for (std::size_t first = 0; first < pieces.size(); first += kLanes)
+    {
+        const LaneMask near = pieces.near(first, bundle, query.radius);
+        if (near) gatherPieces(pieces, first, near, query, radiance);
     }
 }
 

@@ -51,6 +51,35 @@ struct RayBundle
     float radius = 0.0f, slope = 0.0f;
 };
 
+/// Holds pieces of beams, for tests of sixteen at a time.
+class BeamPieces
+{
+public:
+    std::size_t size() const { return _pieces.size(); }
+    std::size_t bytes() const
+    {
+        return _pieces.size() * sizeof(BeamPiece) + _ends.size() * sizeof(Ends);
+    }
+    const BeamPiece& operator[](std::size_t k) const { return _pieces[k]; }
+
+    void clear();
+    void add(const BeamPiece& piece);
+
+    /// Returns which of the pieces from first on, a multiple of kLanes, may come within a distance
+    /// of some ray of a bundle.
+    LaneMask near(std::size_t first, const RayBundle& bundle, float distance) const;
+
+private:
+    /// Holds where sixteen pieces begin and end.
+    struct Ends
+    {
+        Vec3Lanes begin, end;
+    };
+
+    std::vector<BeamPiece> _pieces;
+    std::vector<Ends> _ends; ///< of sixteen pieces each
+};
+
 /// Returns a bundle that holds the rays of lanes, from tNear of 0 to infinity.
 RayBundle bundleOf(const RayBlock* const* blocks, const LaneMask* lanes, int count);
 
@@ -78,19 +107,20 @@ public:
     BeamMap(const std::vector<PhotonBeam>& beams, float pieceLength);
 
     std::size_t size() const { return _beams; } ///< number of beams
-    std::size_t bytes() const { return _pieces.size() * sizeof(BeamPiece) + _tree.bytes(); }
+    std::size_t bytes() const { return _pieces.bytes() + _tree.bytes(); }
 
     /// Replaces found by all pieces that may come within a distance of some ray of a bundle.
-    void find(const RayBundle& bundle, float distance, std::vector<BeamPiece>& found) const;
+    void find(const RayBundle& bundle, float distance, BeamPieces& found) const;
 
 private:
     std::size_t _beams = 0;
-    std::vector<BeamPiece> _pieces; ///< in the order of the tree
+    BeamPieces _pieces; ///< in the order of the tree
     BoxTree _tree;
 };
 
-/// Sets radiance to what the pieces scatter towards the rays.
-void gatherBeams(const std::vector<BeamPiece>& pieces, const BeamQuery& query, Vec3Lanes& radiance);
+/// Sets radiance to what the pieces scatter towards the rays. bundle: holds the rays.
+void gatherBeams(const BeamPieces& pieces, const RayBundle& bundle, const BeamQuery& query,
+                 Vec3Lanes& radiance);
 
 /// Returns the distance from a line to the count-th nearest of the beams; infinity if fewer beams
 /// pass it. Only places count at which the line is nearest to a beam within the beam.

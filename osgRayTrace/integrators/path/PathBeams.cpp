@@ -39,7 +39,7 @@ BeamQuery queryOf(const PassContext& context, const MediumSegments& segments, La
 }
 
 /// Finds the beams that the camera rays of a tile may pass, once for all of its blocks.
-const std::vector<BeamPiece>& tileBeams(Tile& tile, const BeamMap& map, float radius)
+const BeamPieces& tileBeams(Tile& tile, const BeamMap& map, float radius)
 {
     if (tile.hasBeams) return tile.beams;
     const RayBlock* rays[kTileBlocks];
@@ -85,17 +85,20 @@ void addBeams(Tile& tile, const PathBlock& block, const MediumSegments& segments
     };
     if (fromCamera)
     {
-        gatherBeams(tileBeams(tile, map, context.beamRadius), query, radiance);
+        const LaneMask all = kAllLanes;
+        gatherBeams(tileBeams(tile, map, context.beamRadius), bundleOf(&segments.ray, &all, 1),
+                    query, radiance);
         for (const int i : lanesIn(lanes))
             add(i);
         return;
     }
     for (const int i : lanesIn(lanes))
     {
-        map.find(bundleOf(segments, i), context.beamRadius, tile.rayBeams);
+        const RayBundle bundle = bundleOf(segments, i);
+        map.find(bundle, context.beamRadius, tile.rayBeams);
         BeamQuery single = query;
         single.lanes = 1u << i;
-        gatherBeams(tile.rayBeams, single, radiance);
+        gatherBeams(tile.rayBeams, bundle, single, radiance);
         add(i);
     }
 }

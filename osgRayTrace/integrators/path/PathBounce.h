@@ -82,10 +82,10 @@ struct Tile
     PixelSums sums;
     PathQueue paths;
     ReuseGroups reuse;
-    Bsdf bsdfs[kLanes];                     ///< BSDFs of the block at work
-    GatherScratch gatherScratch;            ///< scratch of all photon look-ups
-    bool hasBeams = false;                  ///< beams are those near the tile's camera rays
-    std::vector<BeamPiece> beams, rayBeams; ///< rayBeams: scratch
+    Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
+    GatherScratch gatherScratch; ///< scratch of all photon look-ups
+    bool hasBeams = false;       ///< beams are those near the tile's camera rays
+    BeamPieces beams, rayBeams;  ///< rayBeams: scratch
 };
 
 /// A Bounce holds the surfaces that the rays of a block met, and the sets of lanes by what they do.
