@@ -216,6 +216,8 @@ const std::vector<OptionRow>& optionTable()
             "Whether colours are used as they are or decoded from sRGB; auto: by the materials"),
         numberRow("photons", kPhotonsRange, &S::getPhotons, &S::setPhotons,
                   "Photons emitted a pass by ppm, sppm and photon-caustics"),
+        numberRow("photon-beams", kPhotonBeamsRange, &S::getPhotonBeams, &S::setPhotonBeams,
+                  "Photons of a pass that leave beams in fog and other media that scatter"),
         numberRow("photon-radius", kPhotonRadiusRange, &S::getPhotonRadius, &S::setPhotonRadius,
                   "Radius of photon lookups in the first pass [length]; 0: by their density"),
         numberRow("photon-alpha", kPhotonAlphaRange, &S::getPhotonAlpha, &S::setPhotonAlpha,

@@ -38,6 +38,7 @@ constexpr Range<float> kExposureRange{-32.0f, 32.0f};
 constexpr Range<float> kApertureRange{0.0f, 1e30f};
 constexpr Range<float> kFocusRange{0.0f, 1e30f};
 constexpr Range<int> kPhotonsRange{0, 1 << 24};
+constexpr Range<int> kPhotonBeamsRange{1, 1 << 24};
 constexpr Range<float> kPhotonRadiusRange{0.0f, 1e30f};
 constexpr Range<float> kPhotonAlphaRange{0.1f, 0.99f};
 

@@ -279,6 +279,11 @@ void RayTraceSettings::setPhotonRadius(float value)
     changeNumber("photon-radius", kPhotonRadiusRange, _values.photonRadius, value, _modifiedCount);
 }
 
+void RayTraceSettings::setPhotonBeams(int value)
+{
+    changeNumber("photon-beams", kPhotonBeamsRange, _values.photonBeams, value, _modifiedCount);
+}
+
 void RayTraceSettings::setPhotonAlpha(float value)
 {
     changeNumber("photon-alpha", kPhotonAlphaRange, _values.photonAlpha, value, _modifiedCount);

@@ -69,11 +69,11 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
                     {"photon", statistics.photonRays},
                     {"total", allRays(statistics)}};
     if (statistics.photonRays || !statistics.photonNote.empty())
-        json["photons"] = {{"stored", statistics.storedPhotons},
-                           {"bytes", statistics.photonBytes},
-                           {"hitPointBytes", statistics.hitPointBytes},
-                           {"radius", statistics.photonRadius},
-                           {"note", statistics.photonNote}};
+        json["photons"] = {
+            {"stored", statistics.storedPhotons}, {"beams", statistics.storedBeams},
+            {"points", statistics.storedPoints},  {"beamRadius", statistics.beamRadius},
+            {"bytes", statistics.photonBytes},    {"hitPointBytes", statistics.hitPointBytes},
+            {"radius", statistics.photonRadius},  {"note", statistics.photonNote}};
     if (statistics.collisions || !statistics.mediumNote.empty())
         json["media"] = {{"collisions", statistics.collisions},
                          {"cutWalks", statistics.cutWalks},

@@ -96,6 +96,9 @@ py::dict statisticsDict(const Statistics& statistics)
     OSGRAYTRACE_MEMBER(secondaryRays);
     OSGRAYTRACE_MEMBER(photonRays);
     OSGRAYTRACE_MEMBER(storedPhotons);
+    OSGRAYTRACE_MEMBER(storedBeams);
+    OSGRAYTRACE_MEMBER(storedPoints);
+    OSGRAYTRACE_MEMBER(beamRadius);
     OSGRAYTRACE_MEMBER(photonBytes);
     OSGRAYTRACE_MEMBER(hitPointBytes);
     OSGRAYTRACE_MEMBER(reprojectedShare);

@@ -73,6 +73,13 @@ MediumTable::MediumTable(const Scene& scene, Vec3 low, Vec3 high)
         _records.push_back(recordOf(material.detail ? material.detail->interior : Medium(), unit));
         _records.back().ior = usableIor(material.ior);
     }
+    const float mostSigma = 1.0f / (kDenseMeanWay * 0.5f * glm::length(high - low));
+    for (MediumRecord& record : _records)
+    {
+        const Vec3 sigma = record.sigmaT;
+        record.isDense =
+            record.scatters && std::max(sigma.x, std::max(sigma.y, sigma.z)) > mostSigma;
+    }
 }
 
 RayPart MediumTable::clipped(MediumId medium, Vec3 origin, Vec3 direction, float begin,

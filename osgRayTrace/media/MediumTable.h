@@ -21,8 +21,13 @@ struct MediumRecord
     float ior = 1.0f; ///< index of refraction of the body
     int priority = 0;
     bool scatters = false, emits = false;
-    bool isClear = true; ///< true: light passes as if nothing were there
+    bool isDense = false; ///< photons are points rather than beams: see kDenseMeanWay
+    bool isClear = true;  ///< true: light passes as if nothing were there
 };
+
+/// A medium is dense if the mean way between collisions is below this share of the radius of what
+/// is traced. Photon beams would be shorter there than the kernel by which they are looked up.
+constexpr float kDenseMeanWay = 0.005f * 1.5707963f;
 
 /// A part of a ray.
 struct RayPart
@@ -75,6 +80,10 @@ public:
     /// Returns the part of a ray from begin to end on which the medium has an effect. The medium
     /// around all bodies ends at its sphere, and so does that of a body that is open.
     RayPart clipped(MediumId medium, Vec3 origin, Vec3 direction, float begin, float end) const;
+
+    // The sphere at which the medium around all bodies ends [engine space].
+    Vec3 centre() const { return _centre; }
+    float radius() const { return _radius; }
 
 private:
     std::vector<MediumRecord> _records; ///< 0: what is around all bodies

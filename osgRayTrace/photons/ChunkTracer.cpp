@@ -45,21 +45,27 @@ const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
     return &_textured[i];
 }
 
+/// Returns the factor on the power of a photon that has come straight from a light to a point.
+float ChunkTracer::fallenOff(uint32_t number, Vec3 point, float way) const
+{
+    const Light& light = _inputs.lights[number];
+    const float distance =
+        isSoft(light) ? std::max(light.radius, glm::length(point - light.position)) : way;
+    return _inputs.emitter.falloff(number, distance);
+}
+
 /// Drops the lanes on surfaces that their lights are switched off for, and applies the falloff of
 /// fixed-function lights.
 void ChunkTracer::leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const
 {
-    for (const int i : lanesIn(surface.hits))
+    for (const int i : lanesIn(surface.hits & ~_collided))
     {
         const Light& light = _inputs.lights[block.light[i]];
         if (light.kind != LightKind::Point && light.kind != LightKind::Directional) continue;
         const Material& material = _inputs.traced.scene().materials[surface.material[i]];
         if (!isLightEnabled(material, light.number)) surface.hits &= ~(1u << i);
-        const float distance =
-            isSoft(light)
-                ? std::max(light.radius, glm::length(laneOf(surface.position, i) - light.position))
-                : _rays.ray.tFar[i];
-        const float falloff = _inputs.emitter.falloff(block.light[i], distance);
+        const float falloff =
+            fallenOff(block.light[i], laneOf(surface.position, i), _rays.ray.tFar[i]);
         block.power.x[i] *= falloff;
         block.power.y[i] *= falloff;
         block.power.z[i] *= falloff;
@@ -99,7 +105,7 @@ void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surfac
         if (isFinite(power))
             _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
                                       power, laneOf(surface.geometricNormal, i),
-                                      static_cast<uint32_t>(bounce) + 1, block.direct[i] != 0,
+                                      edgesAt(block, i, bounce), block.direct[i] != 0,
                                       _chunk.bins[block.photon[i] - _first]});
         else
             ++_chunk.dropped;
@@ -165,12 +171,13 @@ void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, i
     for (const int i : lanesIn(_general))
         scatterOne(block, surface, i, ((mustMirror >> i) & 1u) != 0);
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
-    const LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
+    LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
+    if (_inputs.traced.traits().media) alive = enterBodies(block, surface, alive);
     _paths.append(block, alive);
 }
 
 /// Sorts the lanes by what their surfaces are; returns those that photons are stored at.
-LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
+LaneMask ChunkTracer::classify(const PhotonPathBlock& block, const SurfaceLanes& surface)
 {
     const MaterialTable& materials = _inputs.traced.materials();
     LaneMask stores = 0;
@@ -185,7 +192,7 @@ LaneMask ChunkTracer::classify(const SurfaceLanes& surface)
             if (record.front.diffuse != Vec3(0.0f)) _diffuse |= lane;
             continue;
         }
-        const Bsdf* const bsdf = bsdfAt(surface, i);
+        const Bsdf* const bsdf = bsdfInBodies(block, surface, i);
         if (isSmoothInterface(*bsdf))
         {
             _interfaces.set(i, *bsdf);

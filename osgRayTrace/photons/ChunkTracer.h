@@ -17,6 +17,9 @@ namespace osgRayTrace::engine
 /// This is the number of photons that are followed together.
 constexpr uint32_t kPhotonChunk = 2048;
 
+/// The number of collisions between two surfaces after which a photon ends, and of surfaces.
+constexpr uint32_t kMostFlights = 10000;
+
 /// These are the dimensions of a photon's sequence.
 enum PhotonDimension : uint32_t
 {
@@ -43,9 +46,12 @@ struct ChunkInputs
 struct PhotonChunk
 {
     std::vector<Photon> photons;
+    std::vector<PhotonBeam> beams;
+    std::vector<VolumePoint> points;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
+    uint64_t cutWalks = 0;
 };
 
 /// Emits and follows the photons of one chunk. The loop, with the estimator above it, is in
@@ -53,7 +59,10 @@ struct PhotonChunk
 class ChunkTracer
 {
 public:
-    ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk) : _inputs(inputs), _chunk(chunk) {}
+    ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk)
+        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traced.traits().media)
+    {
+    }
 
     /// Traces count photons, the first of which has the number first within the pass.
     void trace(uint32_t first, uint32_t count);
@@ -81,8 +90,36 @@ private:
     LaneMask passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                        int bounce);
     void absorb(PhotonPathBlock& block, const SurfaceLanes& surface) const;
+
+    // What photons do in media is in ChunkFlights.cpp.
+    enum class FlightEnd
+    {
+        Surface,
+        GoesOn,
+        Dies,
+    };
+    struct Flights;
+    void travel(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
+    FlightEnd fly(PhotonPathBlock& block, Flights& flights, int i);
+    FlightEnd collide(PhotonPathBlock& block, Flights& flights, int i, float distance,
+                      float before);
+    FlightEnd meet(PhotonPathBlock& block, Flights& flights, int i);
+    void storeBeam(const PhotonPathBlock& block, const Flights& flights, int i);
+    void storePoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
+                    Vec3 power);
+    void traceOn(LaneMask lanes);
+    Vec2 flightNumbers(uint32_t photon, int bounce, uint32_t step, uint32_t use) const;
+    float fallenOff(uint32_t light, Vec3 point, float way) const;
+    LaneMask enterBodies(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask alive);
+    const Bsdf* bsdfInBodies(const PhotonPathBlock& block, const SurfaceLanes& surface, int i);
+    uint32_t edgesAt(const PhotonPathBlock& block, int i, int bounce) const
+    {
+        if (!_inputs.traced.traits().media) return static_cast<uint32_t>(bounce) + 1;
+        return static_cast<uint32_t>(block.met[i] + 1) + block.late[i];
+    }
+
     void leaveLight(PhotonPathBlock& block, SurfaceLanes& surface) const;
-    LaneMask classify(const SurfaceLanes& surface);
+    LaneMask classify(const PhotonPathBlock& block, const SurfaceLanes& surface);
     bool isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const;
     void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                int bounce);
@@ -94,7 +131,7 @@ private:
     const ChunkInputs& _inputs;
     PhotonChunk& _chunk;
     uint32_t _first = 0; ///< number of the chunk's first photon within the pass
-    PhotonPathQueue _paths{kPhotonChunk};
+    PhotonPathQueue _paths;
     // These members describe the block at work.
     RayHitBlock _rays;
     FloatLanes _u, _v, _lobe, _roulette; ///< random numbers of the block's bounce
@@ -106,6 +143,7 @@ private:
     LaneMask _glossy = 0;   ///< lanes of _general on glossy surfaces
     LaneMask _oneSided = 0; ///< lanes on faces that all rays pass from one side
     LaneMask _seen = 0;     ///< lanes of _oneSided on the side of the face that is seen
+    LaneMask _collided = 0; ///< lanes that media have scattered on their way to the surface
     const Bsdf* _bsdfs[kLanes] = {};
     Bsdf _textured[kLanes]; ///< memory for those of _bsdfs that vary over their surface
     Scattered _scattered;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/PhotonEmitter.h"
 
+#include "osgRayTrace/accel/Bodies.h"
 #include "osgRayTrace/sampling/Warp.h"
 #include "osgRayTrace/shading/SoftLight.h"
 
@@ -18,6 +19,38 @@ std::size_t pick(const std::vector<float>& cumulative, float u)
 {
     return static_cast<std::size_t>(std::upper_bound(cumulative.begin(), cumulative.end() - 1, u) -
                                     cumulative.begin());
+}
+
+/// Returns the smallest sphere that holds both.
+Sphere around(const Sphere& a, const Sphere& b)
+{
+    const float apart = glm::length(b.centre - a.centre);
+    if (apart + b.radius <= a.radius) return a;
+    if (apart + a.radius <= b.radius) return b;
+    const float radius = 0.5f * (apart + a.radius + b.radius);
+    return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / apart), radius * 1.000001f};
+}
+
+/// Returns the bodies in which the lights of a scene are, by light; empty if there are no bodies.
+std::vector<MediumStack> bodiesOfLights(const TracedScene& traced, const std::vector<Light>& lights)
+{
+    const Scene& scene = traced.scene();
+    const auto fills = [&](std::size_t m)
+    { return traced.media().interiorOf(static_cast<uint32_t>(m)) != kOutside; };
+    bool any = false;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m)
+        any |= fills(m);
+    if (!any) return {};
+    std::vector<MediumStack> bodies(lights.size());
+    for (const uint32_t i : traced.lights().lightsInSpace())
+    {
+        if (lights[i].kind == LightKind::Point)
+            bodies[i] = bodiesAround(traced, lights[i].position);
+        else if (lights[i].kind == LightKind::Parallelogram || lights[i].kind == LightKind::Mesh)
+            if (const auto on = traced.lights().samplePoint(i, 0.5f, 0.5f))
+                bodies[i] = bodiesAround(traced, on->position + on->normal * on->offset);
+    }
+    return bodies;
 }
 
 } // namespace
@@ -86,6 +119,13 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
     _scene = targets.scene;
     _targets = std::move(targets.spheres);
     if (_targets.empty()) _guidedShare = 0.0f;
+    if (traced.traits().media)
+    {
+        const MediumTable& media = traced.media();
+        // Light from far away collides in the whole of the medium around all bodies.
+        if (!media[kOutside].isClear) _scene = around(_scene, {media.centre(), media.radius()});
+        _bodies = bodiesOfLights(traced, lights);
+    }
 
     // Lights are chosen in proportion to power. The power of point and directional lights is what
     // they send into the scene. Groups of lights that a PhotonGuide does not tell apart are

@@ -87,8 +87,14 @@ public:
     /// This is the largest number of targets.
     static constexpr std::size_t kMaxTargets = 32;
 
-    /// Returns a sphere that holds all geometry.
+    /// Returns a sphere that holds all geometry, and the medium around it.
     const Sphere& scene() const { return _scene; }
+
+    /// Returns the bodies that the photons of a light begin in.
+    MediumStack bodiesOf(uint32_t light) const
+    {
+        return _bodies.empty() ? MediumStack() : _bodies[light];
+    }
 
 private:
     struct Cones;
@@ -123,8 +129,9 @@ private:
     float _guidedShare;
     Sphere _scene;
     std::vector<Sphere> _targets;
-    std::vector<uint32_t> _emitters; ///< indices of the lights that have power
-    std::vector<float> _cumulative;  ///< by emitter: cumulative probability; the last is 1
+    std::vector<uint32_t> _emitters;  ///< indices of the lights that have power
+    std::vector<float> _cumulative;   ///< by emitter: cumulative probability; the last is 1
+    std::vector<MediumStack> _bodies; ///< by light; empty: all lights are outside of all bodies
 };
 
 } // namespace osgRayTrace::engine

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/sampling/Hash.h"
+#include "osgRayTrace/sampling/Warp.h"
 
 #include <algorithm>
 #include <chrono>
@@ -35,7 +36,8 @@ bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
 /// reads a fifth of the memory.
 struct Positions
 {
-    explicit Positions(const std::vector<Photon>& photons)
+    template <class T>
+    explicit Positions(const std::vector<T>& photons)
         : x(photons.size()), y(photons.size()), z(photons.size())
     {
         for (std::size_t k = 0; k < photons.size(); ++k)
@@ -78,7 +80,7 @@ float distance2ToNeighbour(const Positions& p, std::size_t chosen, std::size_t n
     return nearest.front();
 }
 
-float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
+template <class T> float densityRadius(const std::vector<T>& photons, const Workers& workers)
 {
     if (photons.size() < 2) return 0.0f;
     constexpr std::size_t kSamples = 128;
@@ -94,6 +96,34 @@ float densityRadius(const std::vector<Photon>& photons, const Workers& workers)
     std::nth_element(radii.begin(), radii.begin() + kSamples / 2, radii.end());
     return radii[kSamples / 2];
 }
+
+/// Returns the radius around lines that cross beams in random directions which holds
+/// kDensityPhotons other beams, in the median.
+float densityRadius(const std::vector<PhotonBeam>& beams, float most, const Workers& workers)
+{
+    constexpr std::size_t kLines = 96;
+    if (beams.empty()) return most;
+    std::vector<float> radii(kLines);
+    workers.forEach(kLines,
+                    [&](std::size_t s)
+                    {
+                        const uint32_t key = hash(static_cast<uint32_t>(s), 0x6265616du);
+                        const PhotonBeam& beam = beams[key % beams.size()];
+                        const float along = unitFloat(hash(key + 1)) * beam.length;
+                        const Vec3 direction = squareToCone(
+                            Vec2(unitFloat(hash(key + 2)), unitFloat(hash(key + 3))), 2.0f);
+                        radii[s] = distanceToBeams(beams, beam.origin + beam.direction * along,
+                                                   direction, kDensityPhotons + 1);
+                    });
+    std::nth_element(radii.begin(), radii.begin() + kLines / 2, radii.end());
+    return std::min(radii[kLines / 2], most);
+}
+
+/// The largest radius of a beam's kernel, over that of the scene.
+constexpr float kWidestBeam = 0.02f;
+
+/// The largest length of the pieces into which beams are cut, over the radius of the scene.
+constexpr float kBeamPiece = 0.15f;
 
 } // namespace
 
@@ -133,6 +163,10 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const Sphere& sphere = _emitter->scene();
+    const float widest = kWidestBeam * sphere.radius;
+    const float apart = densityRadius(_first->points, workers);
+    _density->pointRadius = apart > 0.0f ? std::min(apart, widest) : widest;
+    _density->beamRadius = densityRadius(_first->beams, widest, workers);
     _density->sceneRadius = sphere.radius;
     _density->emits = _emitter->emits();
     _density->caustics = _emitter->emits() && _emitter->hasTargets();
@@ -163,6 +197,9 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     auto pass = std::make_shared<PhotonPass>();
     pass->map = PhotonMap(photons.photons, cellSize, workers,
                           scene.options.photonGuiding && index < kFirst);
+    pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
+    pass->volume.points = PointMap(photons.points);
+    pass->cutWalks = photons.cutWalks;
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -242,7 +279,7 @@ std::size_t PhotonPasses::keptBytes() const
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
     std::size_t sum = 0;
     for (const Entry& entry : _kept)
-        sum += entry.pass->map.bytes();
+        sum += entry.pass->map.bytes() + entry.pass->volume.bytes();
     return sum;
 }
 

@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/photons/PhotonMap.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
+#include "osgRayTrace/photons/VolumePhotons.h"
 
 #include <array>
 #include <atomic>
@@ -36,9 +37,11 @@ enum class ViewId : uint64_t
 struct PhotonPass
 {
     PhotonMap map;
+    VolumePhotons volume;
     uint64_t rays = 0;
     uint64_t dropped = 0;
-    double seconds = 0.0; ///< time to trace and to sort
+    uint64_t cutWalks = 0; ///< photons that ended within a medium
+    double seconds = 0.0;  ///< time to trace and to sort
 };
 
 constexpr int kDensityPhotons = 16;
@@ -47,6 +50,8 @@ constexpr int kDensityPhotons = 16;
 struct PhotonDensity
 {
     float radius = 0.0f; ///< holds kDensityPhotons photons of a pass around a photon, in the median
+    float beamRadius = 0.0f;        ///< holds kDensityPhotons beams around a line, in the median
+    float pointRadius = 0.0f;       ///< the same for collisions with dense media as radius
     float sceneRadius = 0.0f;       ///< radius of a sphere that holds the scene
     float largestCoordinate = 0.0f; ///< largest absolute coordinate in that sphere
     bool emits = false;             ///< some light has power

@@ -35,6 +35,10 @@ void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
         block.photon[to] = paths.photon[from];
         block.light[to] = paths.light[from];
         block.direct[to] = paths.direct[from];
+        if (!_media) continue;
+        block.bodies[to] = paths.bodies[from];
+        block.met[to] = paths.met[from];
+        block.late[to] = paths.late[from];
     }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/Bodies.h"
 #include "osgRayTrace/accel/Surface.h"
 #include "osgRayTrace/base/LargeArray.h"
 
@@ -15,6 +16,12 @@ struct PhotonPathBlock
     UintLanes photon; ///< the photon's number within the pass
     UintLanes light;  ///< the light that the photon came from
     UintLanes direct; ///< 1: the path has met nothing but mirror-like surfaces yet
+    // In scenes with SceneTraits::media:
+    Lanes<uint64_t> bodies; ///< words of MediumStack: bodies that the rays begin in
+    Lanes<int32_t> met;     ///< number of surfaces that count as edges: see ChunkFlights.cpp
+    UintLanes late;         ///< number of edges that collisions add to these
+
+    MediumStack bodiesOf(int lane) const { return MediumStack(bodies[lane]); }
 };
 
 /// Holds photons in as few blocks as possible, in order. Photons that go on may be appended while
@@ -22,7 +29,11 @@ struct PhotonPathBlock
 class PhotonPathQueue
 {
 public:
-    explicit PhotonPathQueue(uint32_t capacity) : _blocks((capacity + kLanes - 1) / kLanes) {}
+    /// media: paths have bodies, and count their edges.
+    PhotonPathQueue(uint32_t capacity, bool media)
+        : _blocks((capacity + kLanes - 1) / kLanes), _media(media)
+    {
+    }
 
     uint32_t size() const { return _count; }
     const PhotonPathBlock& operator[](uint32_t block) const { return _blocks[block]; }
@@ -35,6 +46,7 @@ public:
 private:
     UnclearedArray<PhotonPathBlock> _blocks;
     uint32_t _count = 0;
+    bool _media;
 };
 
 /// Sets the two random numbers of a dimension of each lane's photon. seed: of the dimension.

@@ -112,7 +112,9 @@ PhotonTargets photonTargets(const TracedScene& traced, PhotonUse use, std::size_
         if (box.empty()) continue;
         all.add(box.low);
         all.add(box.high);
-        if (makesCaustics(traced.materials()[instance.material], use))
+        const bool isBoundary =
+            traced.traits().media && traced.media().isInterface(instance.material);
+        if (!isBoundary && makesCaustics(traced.materials()[instance.material], use))
             single.push_back(tightSphere(scene, instance, box));
     }
     PhotonTargets targets;

@@ -46,12 +46,17 @@ namespace osgRayTrace::engine
 void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
 {
     SurfaceLanes surface;
-    findSurfaces(block, active, bounce, surface);
-    if (_inputs.traced.traits().attenuation) absorb(block, surface);
+    const bool media = _inputs.traced.traits().media;
+    if (media)
+        travel(block, active, bounce, surface);
+    else
+        findSurfaces(block, active, bounce, surface);
+    if (_inputs.traced.traits().attenuation && !media) absorb(block, surface);
     if (bounce == 0) leaveLight(block, surface);
-    const LaneMask stores = classify(surface) & ~(_oneSided & ~_seen);
-    if (bounce > 0) store(block, surface, stores, bounce);
-    if (bounce + 2 > _inputs.options.maxBounces)
+    const LaneMask stores = classify(block, surface) & ~(_oneSided & ~_seen);
+    if (bounce > 0 || _collided)
+        store(block, surface, bounce > 0 ? stores : stores & _collided, bounce);
+    if (!media && bounce + 2 > _inputs.options.maxBounces)
         return; // the next surface would be too far for any eye
     scatter(block, surface, bounce);
 }
@@ -75,6 +80,14 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
+    if (_inputs.traced.traits().media)
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const bool used = (lanes >> i) & 1u;
+            block.bodies[i] = used ? _inputs.emitter.bodiesOf(starts.light[i]).word() : 0;
+            block.met[i] = 0;
+            block.late[i] = 0;
+        }
     const float share = 1.0f / static_cast<float>(_inputs.options.photons);
     for (int i = 0; i < kLanes; ++i)
     {
@@ -95,7 +108,7 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
-    for (int bounce = 0; _paths.size() > 0; ++bounce)
+    for (int bounce = 0; _paths.size() > 0 && bounce < static_cast<int>(kMostFlights); ++bounce)
     {
         const uint32_t flying = _paths.size();
         _paths.clear();
@@ -151,6 +164,12 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                         chunks[c] = std::move(chunk);
                     });
     result.emitted.assign(emitter.guideBins(), 0u);
+    for (PhotonChunk& chunk : chunks)
+    {
+        result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
+        result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
+        result.cutWalks += chunk.cutWalks;
+    }
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)
     {

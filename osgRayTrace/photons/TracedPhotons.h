@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/photons/BeamMap.h"
 #include "osgRayTrace/photons/Photon.h"
 #include "osgRayTrace/photons/PhotonUse.h"
+#include "osgRayTrace/photons/PointMap.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,18 +20,22 @@ struct PhotonPassOptions
     int maxBounces = 8;   ///< most edges of a path from light to eye, without the camera ray
     uint32_t seed = 0;
     bool photonGuiding = true; ///< learn from what views see: see PhotonPasses
+    uint32_t beams = 4096;     ///< number of the first photons that leave beams in media
 };
 
 inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
 {
     return a.use == b.use && a.photons == b.photons && a.maxBounces == b.maxBounces &&
-           a.seed == b.seed && a.photonGuiding == b.photonGuiding;
+           a.seed == b.seed && a.photonGuiding == b.photonGuiding && a.beams == b.beams;
 }
 
 struct TracedPhotons
 {
     std::vector<Photon> photons;
+    std::vector<PhotonBeam> beams;   ///< of the first photons, in media that are not dense
+    std::vector<VolumePoint> points; ///< in dense media
     uint64_t rays = 0;
+    uint64_t cutWalks = 0;         ///< photons that ended within a medium: see kMostCollisions
     uint64_t dropped = 0;          ///< photons left out because their power is not finite
     std::vector<uint32_t> emitted; ///< by bin of PhotonGuide: number of photons guided there
 };

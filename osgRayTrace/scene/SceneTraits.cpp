@@ -23,6 +23,7 @@ void addMedium(const Material& material, const MaterialDetail& detail, SceneTrai
     const bool opens = material.transmission > 0.0f || detail.diffuseTransmission > 0.0f;
     if (!opens || detail.thinWalled) return;
     traits.scattering |= detail.interior.scatters();
+    traits.glowing |= detail.interior.emits();
     traits.media |= detail.interior.scatters() || detail.interior.emits() ||
                     detail.interior.priority != 0 || isInterface(material);
 }
@@ -100,6 +101,7 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     {
         traits.media = true;
         traits.scattering |= around->medium.scatters();
+        traits.glowing |= around->medium.emits();
     }
     for (const Light& light : scene.lights)
     {

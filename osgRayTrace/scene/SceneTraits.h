@@ -26,6 +26,7 @@ struct SceneTraits
     bool attenuation = false; ///< light is absorbed within some body
     bool media = false;       ///< rays need to know what they travel through: see MediumTable
     bool scattering = false;  ///< some medium scatters light
+    bool glowing = false;     ///< some medium emits light
     bool deltaLights = false; ///< directional or point lights
     bool areaLights = false;  ///< parallelogram or mesh lights
     bool environment = false; ///< light from all around

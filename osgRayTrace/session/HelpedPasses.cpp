@@ -101,6 +101,11 @@ std::unique_ptr<PassHelp> SessionState::helpWith(const PassContext& context, con
                    "are kept here (sppm can be helped)");
         return nullptr;
     }
+    if (context.volumePhotons)
+    {
+        help->note("servers do not help with photons in media, which are kept here");
+        return nullptr;
+    }
     return help->begin(helpedPass(context, pass), tiles);
 }
 

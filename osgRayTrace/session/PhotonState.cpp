@@ -98,6 +98,7 @@ PhotonPassOptions passOptions(const RenderOptions& options)
     result.maxBounces = options.maxBounces;
     result.seed = options.seed;
     result.photonGuiding = options.photonGuiding;
+    result.beams = static_cast<uint32_t>(std::max(1, options.photonBeams));
     return result;
 }
 
@@ -163,6 +164,11 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     }
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
+    const float width = pixelWidth(context, context.width, context.height);
+    const auto first = [&](float radius)
+    { return std::clamp(wanted > 0.0f ? wanted : std::max(radius, width), _floor, ceiling); };
+    _beamRadius = first(density.beamRadius);
+    _pointRadius = first(density.pointRadius);
 }
 
 void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
@@ -182,7 +188,8 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
     if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
     _projection = PixelProjection(context.camera);
-    if (context.options.integrator == IntegratorKind::Ppm)
+    // What media scatter towards a ray is sampled anew in each pass.
+    if (context.options.integrator == IntegratorKind::Ppm && !traced->traits().media)
         _hitPoints.resize(2 * _pixels / kTilePixels);
 }
 
@@ -219,8 +226,14 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
     context.photons = &_pass->map;
+    context.volumePhotons = _pass->volume.isEmpty() ? nullptr : &_pass->volume;
+    const auto beamScale = static_cast<float>(beamRadiusScale(pass));
+    context.beamRadius = std::max(_floor, _beamRadius * beamScale);
+    context.leastSine = 1e-3f * beamScale;
+    context.pointRadius =
+        std::max(_floor, _pointRadius * static_cast<float>(pointRadiusScale(pass)));
     context.projection = &_projection;
-    _stored |= _pass->map.size() > 0;
+    _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;
 }
 

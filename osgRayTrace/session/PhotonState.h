@@ -125,8 +125,10 @@ private:
     float _largest = 0.0f;
     float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
     float _cellSize = 0.0f;
-    float _alpha = 1.0f;  ///< of the radius schedule
-    float _shrink = 1.0f; ///< radius of the pass at work over the first one, global schedule
+    float _beamRadius = 0.0f;  ///< of the first pass
+    float _pointRadius = 0.0f; ///< of the first pass
+    float _alpha = 1.0f;       ///< of the radius schedule
+    float _shrink = 1.0f;      ///< radius of the pass at work over the first one, global schedule
     bool _local = false;
     /// True: the photons are for caustics, but nothing makes caustics, so all paths are traced from
     /// the eye.

@@ -60,7 +60,7 @@ struct StopRule
 enum class MediumNote : uint8_t
 {
     None,
-    PathsInstead, ///< photons were asked for, and do without media
+    PathsInstead, ///< photons for all light were asked for, and some medium emits
     SingleOnly,   ///< Whitted's integrator has single scattering alone
 };
 
@@ -110,6 +110,9 @@ struct RenderProgress
     float photonRadius = 0.0f;       ///< radius of the last pass [length]; 0 without photons
     PhotonNote photonNote = PhotonNote::None; ///< the note on all passes together
     uint64_t storedPhotons = 0;               ///< photons in the map of the last pass; 0: none
+    uint64_t storedBeams = 0;                 ///< beams of the last pass, in media
+    uint64_t storedPoints = 0;                ///< photons of the last pass in dense media
+    float beamRadius = 0.0f;                  ///< of the last pass [length]; 0 without beams
     uint64_t photonBytes = 0;                 ///< memory of the maps, which all views share
     /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.
     uint64_t hitPointBytes = 0;

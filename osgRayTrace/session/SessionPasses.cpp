@@ -103,11 +103,16 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     progress.photonRadius =
         traced ? static_cast<float>(photons.radius() * filmScene->scene().unit) : 0.0f;
     progress.storedPhotons = traced ? traced->map.size() : 0;
+    progress.storedBeams = traced ? traced->volume.beams.size() : 0;
+    progress.storedPoints = traced ? traced->volume.points.size() : 0;
+    progress.beamRadius = static_cast<float>(
+        progress.storedBeams ? double(context.beamRadius) * filmScene->scene().unit : 0.0);
     progress.photonBytes = photons.keptBytes();
     if (!traced) return;
     if (pass < photonsCounted) return;
     progress.rays.photon += traced->rays;
     progress.droppedSamples += traced->dropped;
+    progress.cutWalks += traced->cutWalks;
     photonsCounted = pass + 1;
 }
 

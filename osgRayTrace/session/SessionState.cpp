@@ -97,7 +97,8 @@ Vec3 eyeOf(const View& view, const Scene& scene)
 MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, const SceneTraits& traits)
 {
     if (!traits.media) return MediumNote::None;
-    if (photonUse(wanted) != PhotonUse::None) return MediumNote::PathsInstead;
+    if (photonUse(wanted) != photonUse(chosen) && wanted != IntegratorKind::Automatic)
+        return MediumNote::PathsInstead;
     const bool single = chosen == IntegratorKind::Whitted && traits.scattering;
     return single ? MediumNote::SingleOnly : MediumNote::None;
 }
@@ -255,7 +256,8 @@ PassContext SessionState::contextOfPass(int pass) const
     context.options.integrator = progress.integrator;
     if (filmOptions.moving) context.options.photonGuiding = false; // what photons lit is gone
     context.key = passKey(filmSeed, pass);
-    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm;
+    const bool sharesPaths = progress.integrator == IntegratorKind::Ppm &&
+                             !filmScene->traits().media; // see PhotonState::choose
     const int paths = sharesPaths ? sharedPaths(pass) : pass;
     context.pathKey = passKey(filmSeed, paths);
     context.coneScale = 1.0f / std::sqrt(static_cast<float>(paths + 1));

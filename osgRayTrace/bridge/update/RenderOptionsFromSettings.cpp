@@ -116,6 +116,7 @@ RenderOptions renderOptionsFromSettings(const RayTraceSettings& settings)
     options.photons = settings.getPhotons();
     options.photonRadius = settings.getPhotonRadius();
     options.photonAlpha = settings.getPhotonAlpha();
+    options.photonBeams = settings.getPhotonBeams();
     options.radiusSchedule = settings.getRadiusSchedule() == RayTraceSettings::LOCAL
                                  ? RadiusSchedule::Local
                                  : RadiusSchedule::Global;

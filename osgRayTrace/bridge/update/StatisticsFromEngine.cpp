@@ -59,7 +59,7 @@ const char* noteText(MediumNote note)
     case MediumNote::None:
         return "";
     case MediumNote::PathsInstead:
-        return "scenes with participating media are path traced: photons do not meet media yet";
+        return "media emit light, which no photons bring: path replaces ppm and sppm";
     case MediumNote::SingleOnly:
         return "whitted has single scattering alone: path has all of the light in media";
     }
@@ -136,6 +136,9 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     statistics.secondaryRays = progress.rays.secondary;
     statistics.photonRays = progress.rays.photon;
     statistics.storedPhotons = progress.storedPhotons;
+    statistics.storedBeams = progress.storedBeams;
+    statistics.storedPoints = progress.storedPoints;
+    statistics.beamRadius = static_cast<double>(progress.beamRadius);
     statistics.photonBytes = progress.photonBytes;
     statistics.hitPointBytes = progress.hitPointBytes;
     statistics.photonNote = noteText(progress.photonNote);

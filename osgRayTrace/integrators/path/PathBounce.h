@@ -9,6 +9,7 @@
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
+#include "osgRayTrace/photons/BeamMap.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/shading/Bsdf.h"
@@ -83,6 +84,8 @@ struct Tile
     ReuseGroups reuse;
     Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
     GatherScratch gatherScratch; ///< scratch of all photon look-ups
+    bool hasBeams = false;       ///< beams are those near the tile's camera rays
+    BeamPieces beams, rayBeams;  ///< rayBeams: scratch
 };
 
 /// A Bounce holds the surfaces that the rays of a block met, and the sets of lanes by what they do.

@@ -75,6 +75,13 @@ public:
         return PathFlags((_word & ~(kCausticChain | kGathered)) | kScattered | kCollided);
     }
 
+    /// Returns the flags of the same path after a medium has scattered it, where photons are looked
+    /// up as on a rough surface.
+    PathFlags collidedAmongPhotons() const
+    {
+        return PathFlags(collided().word() | kTaken | kGathered);
+    }
+
     /// Returns the word after a surface, for loops over lanes. Each of the other arguments is all
     /// bits or none: gathering if photons were looked up, rough if photons were looked up on a
     /// rough surface, carried if photons carry what the surface scatters of the light that the path

@@ -111,7 +111,7 @@ void addFog(Tile& tile, PathBlock& block, const Bounce& bounce)
 }
 
 /// Takes the paths of a block through media. What is seen first is what stands behind the media.
-LaneMask throughMedia(Tile& tile, int b, int number, bool last)
+LaneMask throughMedia(Tile& tile, int b, int number, bool last, PhotonUse use)
 {
     PathBlock& block = tile.paths.blocks[b];
     if (number == 0)
@@ -123,7 +123,7 @@ LaneMask throughMedia(Tile& tile, int b, int number, bool last)
         recordFirstHits(tile.context, tile.left, tile.bottom, b, block.rays, seen,
                         tile.result.firstHits);
     }
-    return travelMedia(tile, block, number, last);
+    return travelMedia(tile, block, number, last, use);
 }
 
 /// Traces the paths of a block over one bounce.
@@ -142,7 +142,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     Bounce bounce;
     bounce.number = number;
     bounce.bsdfs = tile.bsdfs;
-    if (traits.media) bounce.collided = throughMedia(tile, b, number, last);
+    if (traits.media) bounce.collided = throughMedia(tile, b, number, last, use);
     surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
                rayStart(tile.context.options));
     if (traits.normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
@@ -190,7 +190,7 @@ void tracePaths(Tile& tile, PhotonUse use)
 {
     const PassContext& context = tile.context;
     const bool media = context.traced->traits().media;
-    const MediumStack around = media ? bodiesAround(context, context.eye) : MediumStack();
+    const MediumStack around = media ? bodiesAround(*context.traced, context.eye) : MediumStack();
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.paths.blocks[b];

@@ -21,6 +21,7 @@
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/Transmittance.h"
+#include "osgRayTrace/photons/VolumePhotons.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
@@ -39,13 +40,14 @@ float largestOf(Vec3 v)
 class MediumWalk
 {
 public:
-    MediumWalk(Tile& tile, PathBlock& block, int number, bool last)
+    MediumWalk(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
         : _tile(tile),
           _block(block),
           _traced(*tile.context.traced),
           _media(_traced.media()),
           _number(number),
           _last(last),
+          _use(use),
           _collides(number + 1 < tile.context.options.maxBounces),
           _open(block.active)
     {
@@ -68,6 +70,8 @@ private:
 
     void findSegments(int step);
     void addLight();
+    void addPhotonBeams(int step);
+    void addPhotonPoints(int i, Vec3 point, Vec3 throughput);
     End travel(int i);
     End collide(int i, float distance);
     End meet(int i);
@@ -95,6 +99,7 @@ private:
     const MediumTable& _media;
     const int _number;
     const bool _last;     ///< rays find emission alone
+    const PhotonUse _use; ///< of the photons that rays look up
     const bool _collides; ///< paths have an edge left for light behind a collision
     LaneMask _open, _collided = 0;
     FloatLanes _begin; ///< where on the ray the stretch begins
@@ -111,7 +116,7 @@ void MediumWalk::findSegments(int step)
     _segments.ray = &ray;
     _segments.lanes = 0;
     _segments.eachLight = step == 0;
-    _segments.withMis = _collides;
+    _segments.withMis = _collides && _use != PhotonUse::Indirect;
     for (const int i : lanesIn(_open))
     {
         const MediumId body = bodyAt(i);
@@ -151,6 +156,35 @@ void MediumWalk::addLight()
         _tile.sums.add(_block.flagsOf(i), laneOf(radiance, i));
 }
 
+/// Adds the light that photons bring to the stretches of paths that have looked up none before.
+void MediumWalk::addPhotonBeams(int step)
+{
+    if (_use == PhotonUse::None || !_tile.context.volumePhotons) return;
+    LaneMask lanes = 0;
+    for (const int i : lanesIn(_segments.lanes))
+        lanes |= static_cast<LaneMask>(!_block.flagsOf(i).hasTaken()) << i;
+    addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
+}
+
+/// Adds the light that photons bring to the first collision of a path with a dense medium.
+/// throughput: after the collision.
+void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput)
+{
+    const PassContext& context = _tile.context;
+    if (_use == PhotonUse::None || !context.volumePhotons || _block.flagsOf(i).hasTaken()) return;
+    PointQuery query;
+    query.position = point;
+    query.towards = -directionOf(_block.rays.ray, i);
+    query.radius = context.pointRadius;
+    query.medium = _segments.media[i];
+    query.anisotropy = _media[query.medium].anisotropy;
+    query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - _number);
+    const Vec3 radiance = throughput * context.volumePhotons->points.gather(query);
+    _tile.sums.add(_block.flagsOf(i), radiance);
+    if (GatheredPhotons* gathered = _tile.result.photons.gathered)
+        gathered->carried += luminance(radiance);
+}
+
 /// Takes a path along its stretch.
 MediumWalk::End MediumWalk::travel(int i)
 {
@@ -159,7 +193,8 @@ MediumWalk::End MediumWalk::travel(int i)
     const MediumRecord& medium = _media[_segments.media[i]];
     const float length = part.end - part.begin;
     const Vec3 throughput = laneOf(_block.throughput, i);
-    if (!medium.scatters || !_collides)
+    const bool beamsOnly = _use == PhotonUse::Indirect && !medium.isDense;
+    if (!medium.scatters || !_collides || beamsOnly)
     {
         setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
         return meet(i);
@@ -176,9 +211,14 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const MediumRecord& medium = _media[_segments.media[i]];
     const MediumNumbers& numbers = _segments.numbers[i];
     Vec3 throughput = laneOf(_block.throughput, i) * medium.sigmaS;
+    const RayBlock& ray = _block.rays.ray;
+    const Vec3 before = directionOf(ray, i);
+    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
+    if (medium.isDense) addPhotonPoints(i, point, throughput);
     const float found = collisionProbability(_tile.context, _segments, i);
     ++_tile.counts.collisions;
     _collided |= 1u << i;
+    if (_use == PhotonUse::Indirect) return End::Dies; // photons have all other light
     if (++_collisions[i] > kMostCollisions)
     {
         ++_tile.counts.cutWalks;
@@ -194,14 +234,13 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     }
     if (throughput == Vec3(0.0f)) return End::Dies;
     setLane(_block.throughput, i, throughput);
-    const RayBlock& ray = _block.rays.ray;
-    const Vec3 before = directionOf(ray, i);
-    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
     const Vec2 u = numbers.at(MediumPhase);
     const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.
     _block.pdfW[i] = found * evalPhase(medium.anisotropy, glm::dot(before, after));
-    _block.flags[i] = _block.flagsOf(i).collided().word();
+    const PathFlags path = _block.flagsOf(i);
+    _block.flags[i] =
+        (_use == PhotonUse::Caustics ? path.collidedAmongPhotons() : path.collided()).word();
     spawn(i, {point, 0.0f}, after);
     return End::GoesOn;
 }
@@ -307,6 +346,7 @@ LaneMask MediumWalk::run()
     {
         findSegments(step);
         addLight();
+        addPhotonBeams(step);
         LaneMask next = 0;
         for (const int i : lanesIn(_open))
         {
@@ -322,10 +362,10 @@ LaneMask MediumWalk::run()
 
 } // namespace
 
-LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last)
+LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
 {
     const LaneMask before = block.active;
-    const LaneMask collided = MediumWalk(tile, block, number, last).run();
+    const LaneMask collided = MediumWalk(tile, block, number, last, use).run();
     for (const int i : lanesIn(number == 0 ? before : 0))
     {
         // The background shows through what is left of its light, see addEnvironment.

@@ -7,6 +7,8 @@
 namespace osgRayTrace::engine
 {
 
+struct MediumSegments;
+
 /// The number of collisions after which a path that meets no surface ends. What such paths still
 /// carried is lost: TileCounts::cutWalks.
 constexpr uint32_t kMostCollisions = 10000;
@@ -15,8 +17,14 @@ constexpr uint32_t kMostCollisions = 10000;
 /// they meet a surface or leave the scene. Adds the light that media emit and scatter towards the
 /// rays. Collisions change rays, hits, throughputs and flags; boundaries of media are passed; paths
 /// may end. All collisions on the way to the next surface belong to the ray of this number. Returns
-/// the paths that have collided. last: rays of this number find emission alone.
-LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last);
+/// the paths that have collided. last: rays of this number find emission alone. use: of the photons
+/// that the rays look up within media.
+LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use);
+
+/// Adds what photon beams bring to the stretches of lanes, which belong to rays of this number.
+/// fromCamera: the stretches are those of camera rays that have met nothing yet.
+void addBeams(Tile& tile, const PathBlock& block, const MediumSegments& segments, LaneMask lanes,
+              int number, bool fromCamera);
 
 /// Sets the bodies of the paths that scatter() has sent through the surface of one.
 void enterBodies(const Tile& tile, PathBlock& block, const Bounce& bounce);

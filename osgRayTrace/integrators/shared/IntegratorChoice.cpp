@@ -7,14 +7,14 @@ namespace osgRayTrace::engine
 
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
 {
-    if (traits.media && photonUse(wanted) != PhotonUse::None) return IntegratorKind::Path;
+    // Light that media emit comes with no photons: paths find it, before they look up any.
+    if (traits.glowing && photonUse(wanted) == PhotonUse::Indirect) return IntegratorKind::Path;
     if (wanted != IntegratorKind::Automatic) return wanted;
-    if (traits.scattering) return IntegratorKind::Path;
-    if (!traits.physical) return IntegratorKind::Whitted;
     const bool lights = traits.areaLights || traits.deltaLights || traits.environment;
     const bool caustics = (lights && (traits.specular || traits.transmission)) ||
                           ((traits.areaLights || traits.deltaLights) && traits.glossy);
-    return caustics && !traits.media ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+    if (!traits.scattering && !traits.physical) return IntegratorKind::Whitted;
+    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 
 bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits)

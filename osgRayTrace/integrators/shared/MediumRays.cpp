@@ -13,9 +13,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The number of surfaces that a ray is followed through; it sees nothing behind the last one.
-constexpr int kMostCrossings = 256;
-
 /// Returns the extinction of the way of lane i from begin to end.
 Vec3 leftAlong(const MediumTable& media, MediumStack bodies, const RayBlock& ray, int i,
                float begin, float end)
@@ -38,32 +35,6 @@ void dim(LightLanes& samples, int i, Vec3 share)
 }
 
 } // namespace
-
-MediumStack bodiesAround(const PassContext& context, Vec3 point)
-{
-    const TracedScene& traced = *context.traced;
-    // A direction that no model is built along.
-    const Vec3 direction = glm::normalize(Vec3(0.3141f, 0.2718f, 0.9097f));
-    RayHitBlock rays;
-    setRay(rays.ray, 0, plainOf(point), plainOf(direction), 0.0f, kInfinity);
-    HitRule everything;
-    everything.solid = true;
-    MediumStack begun, inside;
-    for (int k = 0; k < kMostCrossings; ++k)
-    {
-        traced.intersector().closestHits(rays, 1u, Coherence::Incoherent, everything);
-        SurfaceLanes surface;
-        surfacesOf(traced.surfaces(), rays, 1u, surface);
-        if (!surface.hits) break;
-        const MediumId body = traced.media().interiorOf(surface.material[0]);
-        goOnBehindHit(rays.ray, 0, kInfinity);
-        if (body == kOutside) continue;
-        const bool front = surface.front & 1u;
-        if (!front && !inside.has(body)) begun = begun.begunIn(body);
-        inside = bodiesBehind(inside, body, front);
-    }
-    return begun;
-}
 
 void dimByMedia(const PassContext& context, const MediumLanes& bodies, LaneMask visible,
                 LightLanes& samples)

@@ -14,6 +14,7 @@ namespace osgRayTrace::engine
 {
 
 class PhotonMap;
+struct VolumePhotons;
 class PixelProjection;
 
 /// The input of a pass over the image of one view. All threads share it, and none changes it.
@@ -41,6 +42,11 @@ struct PassContext
     const PixelProjection* projection = nullptr; ///< of the camera; set if photons are
     float leastPhotonRadius = 0.0f;              ///< least radius of look-ups in this pass [length]
     float largestPhotonRadius = 0.0f;
+    /// Photons of the pass within media; null: there are none.
+    const VolumePhotons* volumePhotons = nullptr;
+    float beamRadius = 0.0f;  ///< of the kernel of beams in this pass [length]
+    float pointRadius = 0.0f; ///< of spheres in dense media in this pass [length]
+    float leastSine = 1e-3f;  ///< see BeamQuery
 };
 
 } // namespace osgRayTrace::engine

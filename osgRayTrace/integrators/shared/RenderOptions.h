@@ -78,6 +78,7 @@ struct RenderOptions
     float photonRadius = 0.0f; ///< radius in the first pass [length]; 0: from the photons' density
     float photonAlpha = 2.0f / 3.0f; ///< share of the photons of a pass that are kept
     RadiusSchedule radiusSchedule = RadiusSchedule::Global;
+    int photonBeams = 4096; ///< of these photons, how many leave beams in media
     bool photonGuiding =
         true; ///< true: photons go to what views see, not only to what makes caustics
 
@@ -87,7 +88,7 @@ struct RenderOptions
         return std::tie(integrator, lightSampling, debugChannel, lightSamples, environmentSampling,
                         environmentSamples, maxBounces, shadows, terminatorCorrection,
                         centredFirstPass, moving, aperture, focus, seed, photons, photonRadius,
-                        photonAlpha, radiusSchedule, photonGuiding);
+                        photonAlpha, radiusSchedule, photonBeams, photonGuiding);
     }
 
     /// Returns true if an accumulated image made with previous cannot be continued with *this.

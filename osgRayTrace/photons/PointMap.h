@@ -1,0 +1,62 @@
+// PointMap.h - photons at their collisions with dense media, and look-ups around points. Layer:
+// photons.
+// SPDX-License-Identifier: MIT
+//
+// The photons that have collided within a sphere of radius r are an estimate of the radiance that a
+// medium scatters [Jensen98, eq. 13]:
+//
+//   L = sigmaS sum over photons of power p(cosTheta) / (4/3 pi r^3)
+//
+// A photon's power is that with which it comes to its collision, over the extinction: power of a
+// flight over its density, so that the sum over photons is the fluence.
+#pragma once
+
+#include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/photons/BoxTree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace osgRayTrace::engine
+{
+
+/// Holds a photon at a collision.
+struct VolumePoint
+{
+    Vec3 position{0.0f};
+    Vec3 direction{0.0f}; ///< unit, the way of the light before the collision
+    Vec3 power{0.0f};     ///< [W length], already divided by the number of emitted photons
+    MediumId medium = kOutside;
+    uint32_t edges = 0; ///< edges of the path from the light to the collision
+};
+
+/// Holds a sphere that photons are looked for in.
+struct PointQuery
+{
+    Vec3 position{0.0f};
+    Vec3 towards{0.0f}; ///< unit, in which the light goes on
+    float radius = 0.0f;
+    float anisotropy = 0.0f; ///< of the medium
+    MediumId medium = kOutside;
+    uint32_t mostEdges = 0; ///< photons of longer paths are left out
+};
+
+/// Immutable once built; thread safe.
+class PointMap
+{
+public:
+    PointMap() = default;
+    explicit PointMap(const std::vector<VolumePoint>& points);
+
+    std::size_t size() const { return _points.size(); }
+    std::size_t bytes() const { return _points.size() * sizeof(VolumePoint) + _tree.bytes(); }
+
+    /// Returns the scattered radiance over sigmaS, along the query's direction.
+    Vec3 gather(const PointQuery& query) const;
+
+private:
+    std::vector<VolumePoint> _points; ///< in the order of the tree
+    BoxTree _tree;
+};
+
+} // namespace osgRayTrace::engine

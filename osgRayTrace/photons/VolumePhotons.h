@@ -1,0 +1,43 @@
+// VolumePhotons.h - the photons of a pass within media, and how their kernels shrink. Layer:
+// photons.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/photons/BeamMap.h"
+#include "osgRayTrace/photons/PointMap.h"
+#include "osgRayTrace/photons/RadiusSchedule.h"
+
+namespace osgRayTrace::engine
+{
+
+/// Holds the photons of a pass within media; immutable.
+struct VolumePhotons
+{
+    BeamMap beams;
+    PointMap points; ///< in dense media
+
+    bool isEmpty() const { return beams.size() == 0 && points.size() == 0; }
+    std::size_t bytes() const { return beams.bytes() + points.bytes(); }
+};
+
+/// The exponents of the schedules of kernels of d dimensions: alpha = 4 / (4 + d) makes the mean
+/// square of the error fall fastest, with the number of passes to the power of -alpha [Kaplanyan13;
+/// Jarosz11b, sect. 5].
+constexpr double kBeamAlpha = 4.0 / 5.0;
+constexpr double kPointAlpha = 4.0 / 7.0;
+
+/// Returns the radius of a beam's kernel in pass number pass (from 0) over that of the first pass:
+/// the product of (i + alpha) / (i + 1), as a kernel of one dimension has the radius for its
+/// measure.
+inline double beamRadiusScale(int pass)
+{
+    return globalRadiusSquared(pass, kBeamAlpha);
+}
+
+/// Returns the same for the radius of spheres, whose measure is its cube.
+inline double pointRadiusScale(int pass)
+{
+    return std::cbrt(globalRadiusSquared(pass, kPointAlpha));
+}
+
+} // namespace osgRayTrace::engine

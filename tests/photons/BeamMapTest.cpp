@@ -1,0 +1,311 @@
+// BeamMapTest.cpp - look-ups of photon beams and points, and how fast their errors fall.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/Statistics.h"
+
+#include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/photons/VolumePhotons.h"
+#include "osgRayTrace/sampling/Warp.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr float kSigma = 0.1f; ///< extinction; nothing is absorbed
+constexpr double kPiD = 3.14159265358979;
+
+Vec3 randomDirection(Uniform& random)
+{
+    const float u = random(), v = random();
+    return squareToCone(Vec2(u, v), 2.0f);
+}
+
+/// Returns rays whose stretches are [0, end).
+BeamQuery queryOf(const RayBlock& rays, float end, float radius, float g = 0.0f)
+{
+    BeamQuery query;
+    query.ray = &rays;
+    query.lanes = kAllLanes;
+    query.mostEdges = 99;
+    query.radius = radius;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        query.begin[i] = 0.0f;
+        query.end[i] = end;
+        query.anisotropy[i] = g;
+        query.medium[i] = kOutside;
+        setLane(query.sigmaT, i, Vec3(kSigma));
+        setLane(query.sigmaS, i, Vec3(kSigma));
+    }
+    return query;
+}
+
+std::vector<PhotonBeam> randomBeams(Uniform& random, int count)
+{
+    std::vector<PhotonBeam> beams;
+    for (int k = 0; k < count; ++k)
+    {
+        PhotonBeam beam;
+        beam.origin = Vec3(random(), random(), random()) * 4.0f - 2.0f;
+        beam.direction = randomDirection(random);
+        beam.length = 3.0f * random();
+        beam.power = Vec3(random(), random(), random());
+        beam.medium = k % 5 == 0 ? MediumId(1) : kOutside;
+        beam.edges = static_cast<uint32_t>(k % 4);
+        beams.push_back(beam);
+    }
+    return beams;
+}
+
+/// Returns what the beams scatter towards a ray, in double, beam by beam.
+Vec3d expectedAlong(const std::vector<PhotonBeam>& beams, Vec3d origin, Vec3d d, double end,
+                    double radius, float g, uint32_t mostEdges)
+{
+    Vec3d sum(0.0);
+    for (const PhotonBeam& beam : beams)
+    {
+        if (beam.medium != kOutside || beam.edges > mostEdges) continue;
+        const Vec3d b(beam.direction), w = Vec3d(beam.origin) - origin, n = glm::cross(d, b);
+        const double sine2 = glm::dot(n, n), sine = std::sqrt(sine2);
+        const double along = glm::dot(glm::cross(w, b), n) / sine2;
+        const double onBeam = glm::dot(glm::cross(w, d), n) / sine2;
+        if (std::abs(glm::dot(w, n)) > radius * sine) continue;
+        if (along < 0.0 || along >= end || onBeam < 0.0 || onBeam >= double(beam.length)) continue;
+        const double phase = double(evalPhase(g, -float(glm::dot(d, b))));
+        sum += Vec3d(beam.power) * (double(kSigma) * phase / (2.0 * radius * sine) *
+                                    std::exp(-double(kSigma) * (along + onBeam)));
+    }
+    return sum;
+}
+
+/// Returns rays at a distance from the origin, in random directions across the way to it.
+RayBlock raysAround(Uniform& random, float distance, float before)
+{
+    RayBlock rays;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const Vec3 foot = randomDirection(random);
+        const Vec3 across = glm::normalize(glm::cross(foot, randomDirection(random)));
+        setRay(rays, i, plainOf(foot * distance - across * before), plainOf(across), 0.0f, 1e30f);
+    }
+    return rays;
+}
+
+/// Holds squares of relative errors by number of passes.
+constexpr int kCounts[] = {64, 128, 256, 512, 1024, 2048, 4096};
+struct Squares
+{
+    double squares[7] = {};
+    Estimate last; ///< values over truth after all passes
+
+    double slope() const
+    {
+        const std::vector<double> counts(std::begin(kCounts), std::end(kCounts));
+        return logLogSlope(counts, std::vector<double>(std::begin(squares), std::end(squares)));
+    }
+    void add(int at, double ratio)
+    {
+        squares[at] += (ratio - 1.0) * (ratio - 1.0);
+        if (at == 6) last.add(ratio);
+    }
+};
+
+} // namespace
+
+TEST_CASE("beams: look-ups find what all beams hold", "[photons][media]")
+{
+    Uniform random(3);
+    const std::vector<PhotonBeam> beams = randomBeams(random, 700);
+    const BeamMap map(beams, 0.4f);
+    REQUIRE(map.size() == beams.size());
+    for (const float spread : {0.0f, 0.1f, 3.0f}) // one ray, a bundle, all directions
+        for (int k = 0; k < 40; ++k)
+        {
+            const float radius = k % 2 ? 0.2f : 0.03f, g = k % 3 ? 0.4f : -0.7f;
+            RayBlock rays;
+            const Vec3 eye = Vec3(random(), random(), random()) * 4.0f - 2.0f;
+            const Vec3 axis = randomDirection(random);
+            for (int i = 0; i < kLanes; ++i)
+            {
+                const Vec3 d = glm::normalize(axis + randomDirection(random) * spread * 0.5f);
+                const Vec3 from = eye + randomDirection(random) * spread * 0.1f;
+                setRay(rays, i, plainOf(from), plainOf(d), 0.0f, 1e30f);
+            }
+            BeamQuery query = queryOf(rays, 2.5f, radius, g);
+            query.mostEdges = 2;
+            const RayBlock* block = &rays;
+            const LaneMask lanes = kAllLanes;
+            BeamPieces found;
+            const RayBundle bundle = bundleOf(&block, &lanes, 1);
+            map.find(bundle, radius, found);
+            Vec3Lanes radiance;
+            gatherBeams(found, bundle, query, radiance);
+            for (int i = 0; i < kLanes; ++i)
+            {
+                const Vec3d origin(rays.originX[i], rays.originY[i], rays.originZ[i]);
+                const Vec3d d(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
+                const Vec3d expected = expectedAlong(beams, origin, d, 2.5, double(radius), g, 2);
+                for (int c = 0; c < 3; ++c)
+                {
+                    CAPTURE(spread, k, i, c);
+                    CHECK(double(laneOf(radiance, i)[c]) ==
+                          Approx(expected[c]).epsilon(2e-4).margin(1e-7));
+                }
+            }
+        }
+}
+
+TEST_CASE("beams: rays along a beam, and beams without length, stay finite", "[photons][media]")
+{
+    std::vector<PhotonBeam> beams(3);
+    for (PhotonBeam& beam : beams)
+    {
+        beam.direction = Vec3(0, 0, 1);
+        beam.power = Vec3(1.0f);
+        beam.length = 5.0f;
+    }
+    beams[1].direction = glm::normalize(Vec3(1e-4f, 0, 1)); // head on
+    beams[2].length = 0.0f;
+    RayBlock rays;
+    for (int i = 0; i < kLanes; ++i)
+        setRay(rays, i, {0, 0, 0}, {0, 0, 1}, 0.0f, 1e30f);
+    const BeamQuery query = queryOf(rays, 5.0f, 0.1f);
+    const BeamMap map(beams, 1.0f);
+    const RayBlock* block = &rays;
+    const LaneMask lanes = kAllLanes;
+    BeamPieces found;
+    const RayBundle bundle = bundleOf(&block, &lanes, 1);
+    map.find(bundle, 0.1f, found);
+    Vec3Lanes radiance;
+    gatherBeams(found, bundle, query, radiance);
+    for (int i = 0; i < kLanes; ++i)
+        CHECK((radiance.y[i] >= 0.0f && radiance.y[i] < 1e3f));
+    BeamMap(std::vector<PhotonBeam>(), 1.0f).find(RayBundle(), 1.0f, found);
+    CHECK(found.size() == 0);
+}
+
+TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
+{
+    Uniform random(4);
+    std::vector<VolumePoint> points(3000);
+    for (std::size_t k = 0; k < points.size(); ++k)
+        points[k] = {Vec3(random(), random(), random()), randomDirection(random),
+                     Vec3(random(), random(), random()), MediumId(k % 3), uint32_t(k % 5)};
+    const PointMap map(points);
+    for (int k = 0; k < 100; ++k)
+    {
+        PointQuery query;
+        query.position = Vec3(random(), random(), random());
+        query.towards = randomDirection(random);
+        query.radius = 0.02f + 0.2f * random();
+        query.anisotropy = 0.5f;
+        query.medium = 1;
+        query.mostEdges = 3;
+        Vec3d expected(0.0);
+        for (const VolumePoint& p : points)
+        {
+            const Vec3 off = p.position - query.position;
+            if (p.medium != 1 || p.edges > 3) continue;
+            if (!(glm::dot(off, off) < query.radius * query.radius)) continue;
+            expected +=
+                Vec3d(p.power) * double(evalPhase(0.5f, glm::dot(p.direction, query.towards)));
+        }
+        expected /= 4.0 / 3.0 * kPiD * std::pow(double(query.radius), 3.0);
+        CHECK(double(map.gather(query).x) == Approx(expected.x).epsilon(1e-4).margin(1e-9));
+    }
+}
+
+// The mean square error after N passes goes with N^-alpha. Each is a mean over 48 x 16 rays; slopes
+// of other seeds spread by 0.02, so that a false alarm has a probability below 1e-3.
+TEST_CASE("beams: errors fall with the power -0.8 of the passes, and bias vanishes",
+          "[photons][statistics][media]")
+{
+    // A point light of 1 W/sr, 3 away from the foot of a ray of length 10: MEDIA's air light.
+    constexpr double kTruth = 0.002346865;
+    constexpr int kBeams = 24;
+    Squares errors;
+    for (uint32_t run = 0; run < 48; ++run)
+    {
+        Uniform random(100 + run);
+        const RayBlock rays = raysAround(random, 3.0f, 5.0f);
+        double sums[kLanes] = {};
+        int at = 0;
+        for (int pass = 0; pass < kCounts[6]; ++pass)
+        {
+            BeamPieces pieces;
+            for (int k = 0; k < kBeams; ++k)
+                pieces.add({{0, 0, 0},
+                            plainOf(randomDirection(random)),
+                            0.0f,
+                            90.0f,
+                            {float(4.0 * kPiD / kBeams), 1, 1},
+                            kOutside,
+                            1});
+            const auto radius = float(0.5 * beamRadiusScale(pass));
+            Vec3Lanes radiance;
+            RayBundle everywhere;
+            everywhere.radius = kInfinity;
+            gatherBeams(pieces, everywhere, queryOf(rays, 10.0f, radius), radiance);
+            for (int i = 0; i < kLanes; ++i)
+                sums[i] += double(radiance.x[i]);
+            if (pass + 1 != kCounts[at]) continue;
+            for (const double sum : sums)
+                errors.add(at, sum / kCounts[at] / kTruth);
+            ++at;
+        }
+    }
+    CAPTURE(errors.slope(), errors.last.mean(), errors.last.standardError());
+    CHECK(errors.slope() == Approx(-0.8).margin(0.07));
+    CHECK(errors.last.agrees(1.0, 1e-3)); // of bias
+    CHECK(errors.last.standardError() < 2e-3);
+}
+
+TEST_CASE("points: errors fall with the power -4/7 of the passes", "[photons][statistics][media]")
+{
+    // Scattered radiance over sigmaS, 1 away from a point light of 1 W/sr.
+    constexpr int kPoints = 64;
+    const double truth = std::exp(-1.0) / (4.0 * kPiD);
+    Squares errors;
+    for (uint32_t run = 0; run < 24; ++run)
+    {
+        Uniform random(500 + run);
+        PointQuery queries[kLanes];
+        double sums[kLanes] = {};
+        for (PointQuery& query : queries)
+        {
+            query.position = randomDirection(random);
+            query.towards = Vec3(0, 0, 1);
+            query.mostEdges = 9;
+        }
+        std::vector<VolumePoint> points(kPoints);
+        for (int pass = 0, at = 0; pass < kCounts[6]; ++pass)
+        {
+            for (VolumePoint& point : points)
+            {
+                // A flight in a medium of extinction 1: its power over the density of its end is 1.
+                const Vec3 d = randomDirection(random);
+                const float t = -std::log1p(-float(random()));
+                point = {d * t, d, Vec3(float(4.0 * kPiD / kPoints)), kOutside, 1};
+            }
+            const auto radius = float(0.4 * pointRadiusScale(pass));
+            for (int i = 0; i < kLanes; ++i)
+            {
+                double sum = 0.0;
+                for (const VolumePoint& point : points)
+                {
+                    const Vec3 off = point.position - queries[i].position;
+                    sum += glm::dot(off, off) < radius * radius ? double(point.power.x) : 0.0;
+                }
+                sums[i] += sum / (4.0 * kPiD) / (4.0 / 3.0 * kPiD * std::pow(double(radius), 3.0));
+            }
+            if (pass + 1 != kCounts[at]) continue;
+            for (const double sum : sums)
+                errors.add(at, sum / kCounts[at] / truth);
+            ++at;
+        }
+    }
+    CAPTURE(errors.slope(), errors.last.mean(), errors.last.standardError());
+    CHECK(errors.slope() == Approx(-4.0 / 7.0).margin(0.07));
+}

@@ -1,0 +1,99 @@
+// VolumePhotonsTest.cpp - photons in participating media bring the light that paths find there.
+// SPDX-License-Identifier: MIT
+#include "tests/PValues.h"
+#include "tests/photons/BeamScenes.h"
+#include "tests/photons/PhotonMeans.h"
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+struct VolumeScene
+{
+    const char* name;
+    SceneBuilder builder;
+};
+
+std::vector<VolumeScene> volumeScenes()
+{
+    std::vector<VolumeScene> scenes;
+    scenes.push_back({"fog", foggyBox()});
+    scenes.push_back({"coloured fog forwards", foggyBox(0.6f, Vec3(0.9f, 0.6f, 0.3f))});
+
+    scenes.push_back({"glass and mirror in fog", foggyBox()});
+    SceneBuilder& balls = scenes.back().builder;
+    balls.add(sphereMesh({400, 250, 120}, 90.0f, 24), glass(1.5f));
+    balls.add(sphereMesh({150, 430, 300}, 90.0f, 24), mirror(Vec3(0.9f)));
+
+    scenes.push_back({"bodies", cornellBox()});
+    SceneBuilder& bodies = scenes.back().builder;
+    bodies.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(mediumOf(0.02f, 0.95f), 1.4f));
+    bodies.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mediumOf(0.01f, 0.9f, 0.5f)));
+    return scenes;
+}
+
+} // namespace
+
+// All comparisons together raise a false alarm with a probability of 1 %.
+TEST_CASE("volume photons: agree with paths", "[photons][statistics][media]")
+{
+    const std::vector<VolumeScene> scenes = volumeScenes();
+    const double threshold = sidak(0.01, 3 * static_cast<int>(scenes.size()));
+    for (const VolumeScene& scene : scenes)
+    {
+        const auto traced = scene.builder.build();
+        const View view = cornellView(16, 16);
+        RenderOptions options = optionsOf(IntegratorKind::Path, 12);
+        const Estimate path = meanOf(traced, view, options, 64);
+        for (const IntegratorKind kind :
+             {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+        {
+            options.integrator = kind;
+            options.photons = 8000;
+            options.photonRadius = 4.0f;
+            const Estimate photons = meanOf(traced, view, options, 8);
+            const double p = welchTest(path, kRuns, photons, kRuns);
+            CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
+                    photons.standardError(), p, threshold);
+            CHECK(photons.standardError() < 0.02 * path.mean());
+            CHECK(p > threshold);
+        }
+    }
+}
+
+TEST_CASE("volume photons: the image of a light in a mirror shines in fog",
+          "[photons][statistics][media]")
+{
+    const auto traced = mirrorInFog().build();
+    const double both = kOfLight + kOfImage;
+    const Estimate paths = measure(traced, alongMirror(), optionsOf(IntegratorKind::Path, 2), 8);
+    CHECK(paths.agrees(kOfLight, 0.002 * both)); // what photons are for
+    for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
+    {
+        RenderOptions options = optionsOf(kind, 2);
+        options.photons = 20000;
+        options.photonRadius = 0.2f;
+        const Estimate seen = measure(traced, alongMirror(), options, 16);
+        CAPTURE(int(kind), both, seen.mean(), seen.standardError());
+        CHECK(seen.agrees(both, 0.003 * both));
+        CHECK(seen.standardError() < 0.02 * both);
+    }
+}
+
+TEST_CASE("volume photons: the same bits for any number of threads", "[photons][media]")
+{
+    for (const VolumeScene& scene : volumeScenes())
+        for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
+        {
+            const auto traced = scene.builder.build();
+            RenderOptions options = optionsOf(kind, 8);
+            options.photons = 6000;
+            const View view = cornellView(40, 40);
+            CAPTURE(scene.name, int(kind));
+            const Picture one = render(traced, view, options, 2, 1);
+            CHECK(one.rgba == render(traced, view, options, 2, 2).rgba);
+            CHECK(one.rgba == render(traced, view, options, 2, 16).rgba);
+        }
+}
