@@ -18,27 +18,6 @@ namespace osgRayTrace
 namespace
 {
 
-/// The settings that the engine's options are made of. Others act through the scene or on what is
-/// made of the sums.
-constexpr const char* kOptions[] = {"integrator",
-                                    "light-sampling",
-                                    "light-samples",
-                                    "environment-sampling",
-                                    "environment-samples",
-                                    "max-bounces",
-                                    "shadows",
-                                    "terminator-correction",
-                                    "debug-channel",
-                                    "aperture",
-                                    "focus",
-                                    "seed",
-                                    "photons",
-                                    "photon-beams",
-                                    "photon-radius",
-                                    "photon-alpha",
-                                    "radius-schedule",
-                                    "photon-guiding"};
-
 std::string hexadecimal(uint64_t value)
 {
     char digits[16];
@@ -67,7 +46,7 @@ std::string pictureText(const PictureInputs& picture)
     add("size", std::to_string(picture.width) + ' ' + std::to_string(picture.height));
     add("view", textOf(picture.view));
     add("projection", textOf(picture.projection));
-    for (const char* option : kOptions)
+    for (const char* option : kPictureOptions)
         add(option, picture.settings.get(option));
     add("scene", hexadecimal(engine::sceneDigest(picture.scene)));
     if (!picture.shutterEnd.empty()) add("shutter", picture.shutterEnd);

@@ -17,6 +17,27 @@ namespace engine
 struct Scene;
 }
 
+/// The settings that the engine's options are made of. Others act through the scene or on what is
+/// made of the sums.
+inline constexpr const char* kPictureOptions[] = {"integrator",
+                                                  "light-sampling",
+                                                  "light-samples",
+                                                  "environment-sampling",
+                                                  "environment-samples",
+                                                  "max-bounces",
+                                                  "shadows",
+                                                  "terminator-correction",
+                                                  "debug-channel",
+                                                  "aperture",
+                                                  "focus",
+                                                  "seed",
+                                                  "photons",
+                                                  "photon-beams",
+                                                  "photon-radius",
+                                                  "photon-alpha",
+                                                  "radius-schedule",
+                                                  "photon-guiding"};
+
 /// What a picture is of.
 struct PictureInputs
 {

@@ -35,6 +35,34 @@ template <typename Resolve> osg::ref_ptr<osg::Image> withinMemory(const Resolve&
     }
 }
 
+/// Calls work. Returns false if that fails, and records why.
+template <typename Work> bool attempt(Statistics& statistics, const Work& work)
+{
+    const auto failed = [&statistics](const char* message)
+    {
+        statistics.ok = false;
+        statistics.message = engine::failureText(message);
+        return false;
+    };
+    try
+    {
+        work();
+        return true;
+    }
+    catch (const std::bad_alloc&)
+    {
+        return failed("there is not enough memory");
+    }
+    catch (const std::exception& error)
+    {
+        return failed(error.what());
+    }
+    catch (...)
+    {
+        return failed("an unknown error occurred");
+    }
+}
+
 } // namespace
 
 Renderer::Renderer() : _implementation(std::make_unique<Implementation>()) {}
@@ -43,7 +71,8 @@ Renderer::~Renderer() = default;
 
 void Renderer::setScene(osg::Node* scene)
 {
-    if (_implementation->scene == scene) return;
+    if (_implementation->scene == scene && !_implementation->received) return;
+    _implementation->received = nullptr;
     _implementation->scene = scene;
     _implementation->sceneDirty = true;
 }
@@ -103,38 +132,29 @@ RayTraceSettings* Renderer::getSettings()
     return _implementation->settings.get();
 }
 
+std::vector<unsigned char> Renderer::packPicture()
+{
+    std::vector<unsigned char> bytes;
+    attempt(_implementation->statistics, [&] { bytes = _implementation->packPicture(); });
+    return bytes;
+}
+
+bool Renderer::unpackPicture(const unsigned char* bytes, std::size_t size)
+{
+    return attempt(_implementation->statistics,
+                   [&] { _implementation->unpackPicture(bytes, size); });
+}
+
 bool Renderer::render(double seconds, double relativeError, const Progress& progress)
 {
     Implementation& self = *_implementation;
     self.cancelled = false;
-    const auto failed = [&self](const char* message)
-    {
-        self.statistics.ok = false;
-        self.statistics.message = engine::failureText(message);
-        return false;
-    };
-
     engine::StopRule rule;
     rule.passes = self.settings->getMaxPasses();
     rule.nextPass = self.passSource;
     if (relativeError > 0.0) rule.relativeError = relativeError;
-    try
-    {
-        self.render(rule, seconds, progress);
-        return self.statistics.ok;
-    }
-    catch (const std::bad_alloc&)
-    {
-        return failed("there is not enough memory");
-    }
-    catch (const std::exception& error)
-    {
-        return failed(error.what());
-    }
-    catch (...)
-    {
-        return failed("an unknown error occurred");
-    }
+    return attempt(self.statistics, [&] { self.render(rule, seconds, progress); }) &&
+           self.statistics.ok;
 }
 
 void Renderer::setFirstPass(int pass)

@@ -4,6 +4,7 @@
 #include "osgRayTrace/RendererState.h"
 
 #include "osgRayTrace/PassSumsState.h"
+#include "osgRayTrace/PicturePacket.h"
 #include "osgRayTrace/PictureText.h"
 #include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/common/HomeView.h"
@@ -58,15 +59,21 @@ std::string textOf(const RenderedInputs& inputs)
 
 } // namespace
 
-void Renderer::Implementation::render(engine::StopRule rule, double seconds,
-                                      const std::function<bool(const Statistics&)>& progress)
+/// Throws EngineError if there is nothing to render.
+void Renderer::Implementation::checkInputs() const
 {
-    if (!scene) throw EngineError(StatusCode::EmptyScene, "there is no scene to render");
+    if (!scene && !received)
+        throw EngineError(StatusCode::EmptyScene, "there is no scene to render");
     if (width <= 0 || height <= 0)
         throw EngineError(StatusCode::InvalidView, "the image has no pixels");
     if (int64_t(width) * height > kMostPixels)
         throw EngineError(StatusCode::InvalidView, "the image has more than 2^28 pixels");
+}
 
+void Renderer::Implementation::render(engine::StopRule rule, double seconds,
+                                      const std::function<bool(const Statistics&)>& progress)
+{
+    checkInputs();
     prepareSession();
     if (!shutter) placeHomeView();
     const std::string shutterEnd = shutter ? openShutter() : std::string();
@@ -111,6 +118,38 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     const engine::RenderProgress result = session->render(rule, keepGoing);
     if (result.status.code != StatusCode::InvalidView) rendered = inputs;
     engine::setImageStatistics(statistics, result);
+}
+
+std::vector<unsigned char> Renderer::Implementation::packPicture()
+{
+    checkInputs();
+    if (shutter)
+        throw EngineError(StatusCode::InvalidView,
+                          "a shutter shows each pass another scene, and one can be packed");
+    prepareSession();
+    placeHomeView();
+    showScene();
+    return packedPicture(
+        {traced->scene(), *settings, viewMatrix, projectionMatrix, width, height, {}});
+}
+
+void Renderer::Implementation::unpackPicture(const unsigned char* bytes, std::size_t size)
+{
+    const UnpackedPicture picture = unpackedPicture(bytes, size);
+    std::string problem = picture.problem;
+    const osg::ref_ptr<RayTraceSettings> tried = new RayTraceSettings(*settings);
+    for (const auto& [name, value] : picture.settings)
+        if (!tried->set(name, value)) problem = "the bytes have a wrong value of " + name;
+    if (!problem.empty()) throw EngineError(StatusCode::InvalidView, problem);
+    for (const auto& [name, value] : picture.settings)
+        settings->set(name, value);
+    scene = nullptr;
+    received = picture.scene;
+    homeFovyDegrees.reset();
+    viewMatrix = picture.view;
+    projectionMatrix = picture.projection;
+    width = picture.width;
+    height = picture.height;
 }
 
 /// Returns the sums that render() is to begin with, which are used up. Throws EngineError if they
@@ -244,6 +283,7 @@ std::string Renderer::Implementation::openShutter()
 /// Brings traced up to date. The eye counts: levels of detail and the engine's origin depend on it.
 void Renderer::Implementation::convertScene()
 {
+    if (received) return buildReceived();
     osg::Matrixd worldFromView;
     const bool inverted = worldFromView.invert(viewMatrix);
     const osg::Vec3d eye = worldFromView.getTrans();
@@ -265,6 +305,15 @@ void Renderer::Implementation::convertScene()
     convertedFor = key;
     sceneDirty = scenePosed = false;
     engine::setSceneStatistics(statistics, conversion, *traced);
+}
+
+/// Brings traced up to date with a scene that comes from elsewhere.
+void Renderer::Implementation::buildReceived()
+{
+    if (traced && &traced->scene() == received.get()) return;
+    traced = engine::TracedScene::build(received, workers, traced);
+    session->setScene(traced);
+    engine::setSceneStatistics(statistics, engine::ConversionResult(), *traced);
 }
 
 engine::ConversionInput Renderer::Implementation::conversionInput(const ConversionKey& key) const

@@ -52,6 +52,7 @@ struct RenderedInputs
 struct Renderer::Implementation
 {
     osg::ref_ptr<osg::Node> scene;
+    std::shared_ptr<const engine::Scene> received; ///< comes from elsewhere, and stands for a graph
     bool sceneDirty = true;  ///< all of the graph may have changed, in any way
     bool scenePosed = false; ///< the graph has changed as a viewer's graph does in update
     osg::Matrixd viewMatrix;
@@ -86,6 +87,9 @@ struct Renderer::Implementation
     std::mutex sessionMutex;
     std::atomic<bool> cancelled{false};
 
+    void checkInputs() const;
+    std::vector<unsigned char> packPicture();
+    void unpackPicture(const unsigned char* bytes, std::size_t size);
     void render(engine::StopRule rule, double seconds,
                 const std::function<bool(const Statistics&)>& progress);
     engine::PassSums checkedSums(const RenderedInputs& inputs);
@@ -95,6 +99,7 @@ struct Renderer::Implementation
     void placeHomeView();
     void prepareSession();
     void convertScene();
+    void buildReceived();
     void showScene();
     void pose(double moment);
     std::string openShutter();

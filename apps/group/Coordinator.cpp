@@ -119,13 +119,16 @@ void Coordinator::take(int rank, const GroupMessage& message, double now)
         return;
     case Kind::Alive:
         return;
+    case Kind::Room:
+    case Kind::Scene:
+    case Kind::Bytes:
     case Kind::Take:
     case Kind::Round:
     case Kind::Sum:
     case Kind::End:
     case Kind::Abort:
     case Kind::Bye:
-        break; // are not for rank 0
+        break; // are not for rank 0, or come before the render
     }
     fail(kCannotRender, nameOf(rank) + " does not follow the protocol");
 }

@@ -36,6 +36,11 @@ public:
     virtual void beginSum(std::int64_t* values, std::size_t count) = 0;
     virtual bool sumIsDone() = 0;
 
+    /// Begins to give the bytes of rank 0 to all ranks, which have room for them. All ranks call
+    /// with equal counts, and keep the memory till broadcastIsDone().
+    virtual void beginBroadcast(unsigned char* bytes, std::size_t count) = 0;
+    virtual bool broadcastIsDone() = 0;
+
     /// Ends the processes of all ranks at once.
     [[noreturn]] virtual void abort(int code) = 0;
 };

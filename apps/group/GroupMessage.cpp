@@ -17,19 +17,28 @@ struct Head
     std::uint64_t hostSize;
     RayTotals rays;
     double seconds;
+    std::uint64_t bytes;
     std::int32_t kind, first, end, flag;
     Processors processors;
     std::int32_t unused;
 };
-static_assert(std::is_trivially_copyable_v<Head> && sizeof(Head) == 96, "it has no padding");
+static_assert(std::is_trivially_copyable_v<Head> && sizeof(Head) == 104, "it has no padding");
 
 } // namespace
 
 std::vector<char> packed(const GroupMessage& m)
 {
-    const Head head{
-        m.text.size(), m.host.size(), m.rays, m.seconds,    static_cast<std::int32_t>(m.kind),
-        m.first,       m.end,         m.flag, m.processors, 0};
+    const Head head{m.text.size(),
+                    m.host.size(),
+                    m.rays,
+                    m.seconds,
+                    m.bytes,
+                    static_cast<std::int32_t>(m.kind),
+                    m.first,
+                    m.end,
+                    m.flag,
+                    m.processors,
+                    0};
     std::vector<char> bytes(sizeof head);
     std::memcpy(bytes.data(), &head, sizeof head);
     bytes.insert(bytes.end(), m.text.begin(), m.text.end());
@@ -52,6 +61,7 @@ std::optional<GroupMessage> unpacked(const std::vector<char>& bytes)
     m.end = head.end;
     m.flag = head.flag;
     m.seconds = head.seconds;
+    m.bytes = head.bytes;
     m.rays = head.rays;
     m.processors = head.processors;
     const char* text = bytes.data() + sizeof head;

@@ -39,8 +39,11 @@ struct GroupMessage
         Failed, ///< the rank can make no passes, because of text; first: exit code
         Stop,   ///< the rank was told to end
         Alive,  ///< nothing else; as a question of rank 0, too
+        Room,   ///< there is memory for the scene
 
         // From rank 0 to any rank.
+        Scene, ///< make room for the bytes of a scene; the picture has first x end pixels
+        Bytes, ///< the scene comes now
         Take,  ///< make passes [first, end)
         Round, ///< get ready for round first, with all passes taken; flag: leave those not begun
         Sum,   ///< add up; flag: the high parts as well
@@ -56,6 +59,7 @@ struct GroupMessage
     std::int32_t end = 0;
     std::int32_t flag = 0;
     double seconds = 0.0;
+    std::uint64_t bytes = 0; ///< of the scene
     RayTotals rays{};
     Processors processors;
     std::string text;

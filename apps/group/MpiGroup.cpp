@@ -21,6 +21,7 @@ namespace
 
 constexpr int kTag = 1;
 constexpr std::size_t kSumValues = std::size_t(1) << 23; ///< values that are added up at a time
+constexpr std::size_t kBroadcastBytes = std::size_t(1) << 24; ///< bytes that are sent at a time
 
 /// One thread calls MPI, which never waits: a call that waits would spin on a core that renders.
 class MpiGroup : public Group
@@ -97,6 +98,23 @@ public:
         return false;
     }
 
+    void beginBroadcast(unsigned char* bytes, std::size_t count) override
+    {
+        _bytes = bytes;
+        _bytesLeft = count;
+        broadcastNext();
+    }
+
+    bool broadcastIsDone() override
+    {
+        int isDone = 0;
+        MPI_Test(&_broadcast, &isDone, MPI_STATUS_IGNORE);
+        if (!isDone) return false;
+        if (_bytesLeft == 0) return true;
+        broadcastNext();
+        return false;
+    }
+
     [[noreturn]] void abort(int code) override
     {
         // Open MPI waits for its launcher, which may be busy with ending the job itself.
@@ -129,6 +147,14 @@ private:
         _valuesLeft -= count;
     }
 
+    void broadcastNext()
+    {
+        const std::size_t count = std::min(_bytesLeft, kBroadcastBytes);
+        MPI_Ibcast(_bytes, static_cast<int>(count), MPI_BYTE, 0, MPI_COMM_WORLD, &_broadcast);
+        _bytes += count;
+        _bytesLeft -= count;
+    }
+
     int _rank = 0;
     int _size = 1;
     int _localSize = 1;
@@ -136,6 +162,9 @@ private:
     MPI_Request _sum = MPI_REQUEST_NULL;
     std::int64_t* _values = nullptr;
     std::size_t _valuesLeft = 0;
+    MPI_Request _broadcast = MPI_REQUEST_NULL;
+    unsigned char* _bytes = nullptr;
+    std::size_t _bytesLeft = 0;
 };
 
 } // namespace

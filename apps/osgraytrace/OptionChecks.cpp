@@ -73,6 +73,7 @@ void checkParts(const Options& options)
     }
     if (!options.checkpoint.empty() && formatOf(options.checkpoint) != Format::Exr)
         throw Failure(kUsage, "--checkpoint " + options.checkpoint + ": the name ends in .exr");
+    exclude("--send-scene", "--shutter", options.sendsScene && options.shutter > 0.0);
     exclude("--shutter", "--context", options.shutter > 0.0 && options.context != Context::None);
     if (options.merged.empty()) return;
     exclude("--merge", "models", !options.models.empty());

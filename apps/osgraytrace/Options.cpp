@@ -205,6 +205,10 @@ void addOptions(CLI::App& app, Options& options, RawOptions& raw)
     app.add_flag("--mpi", options.mpi,
                  "Shares the passes among the processes that mpirun or srun has started; the files "
                  "are those of one process, bit by bit");
+    app.add_flag("--send-scene", options.sendsScene,
+                 "Lets rank 0 alone read the models and send the scene: the others need neither "
+                 "files nor plugins")
+        ->needs("--mpi");
 
     app.add_option("--aov", options.channels, "Extra EXR channels: " + commaSeparated(kChannels))
         ->option_text("NAME,...")

@@ -64,7 +64,8 @@ struct Options
     double interval = 60.0;          ///< time between two writings of the checkpoint [s]
     std::vector<std::string> merged; ///< checkpoints to join; empty: a picture is rendered
 
-    bool mpi = false; ///< whether the processes that mpirun has started share the passes
+    bool mpi = false;        ///< whether the processes that mpirun has started share the passes
+    bool sendsScene = false; ///< whether rank 0 alone reads the models, and sends the scene
 
     double seconds = 0.0;       ///< 0: no limit
     double relativeError = 0.0; ///< 0: no target

@@ -41,6 +41,9 @@ Picture renderInGroup(const Options& options, TimedScene& shown, const Camera& c
 /// Makes passes for rank 0 of the group, till it wants no more.
 void helpInGroup(const Options& options, TimedScene& shown, const Camera& camera, Group& group);
 
+/// Does the same with the scene that rank 0 sends; options describe no scene then.
+void helpWithoutModel(Options options, Group& group);
+
 /// Returns a renderer of the scene for the options, which are valid as long as it renders.
 osg::ref_ptr<Renderer> newRenderer(const Options& options, TimedScene& shown, const Camera& camera);
 

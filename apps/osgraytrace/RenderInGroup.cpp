@@ -10,6 +10,7 @@
 #include "apps/common/Program.h"
 #include "apps/group/Launcher.h"
 #include "apps/group/SharedRender.h"
+#include "apps/group/SharedScene.h"
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/film/ErrorEstimate.h"
 
@@ -172,7 +173,31 @@ GroupPlan planOf(const Options& options, RankRender& render)
     return plan;
 }
 
+/// Gives the renderer's scene to all ranks. Throws Failure.
+void giveScene(Renderer& renderer, const Options& options, Group& group)
+{
+    SentScene scene{options.width, options.height, renderer.packPicture()};
+    if (scene.bytes.empty()) throw Failure(kCannotRender, renderer.getStatistics().message);
+    const SendFailure failure = sendScene(group, scene, hooksFor(nullptr).now);
+    if (failure.exitCode != 0) throw Failure(failure.exitCode, failure.text);
+}
+
 } // namespace
+
+void helpWithoutModel(Options options, Group& group)
+{
+    std::optional<SentScene> scene = receiveScene(group);
+    if (!scene) return;
+    options.width = scene->width;
+    options.height = scene->height;
+    RankRender render{new Renderer, {}, false};
+    render.renderer->setSettings(options.settings.get());
+    render.renderer->setWholePasses(true);
+    if (!render.renderer->unpackPicture(scene->bytes.data(), scene->bytes.size()))
+        throw Failure(kCannotRender, render.renderer->getStatistics().message);
+    scene.reset();
+    helpToRender(group, workOf(render, options), hooksFor(nullptr));
+}
 
 void helpInGroup(const Options& options, TimedScene& shown, const Camera& camera, Group& group)
 {
@@ -185,6 +210,7 @@ Picture renderInGroup(const Options& options, TimedScene& shown, const Camera& c
 {
     RankRender render{newRenderer(options, shown, camera), {}, false};
     GroupPlan plan = planOf(options, render);
+    if (options.sendsScene && group.size() > 1) giveScene(*render.renderer, options, group);
     const auto judge = [&](const engine::PassSums& sums, bool keeps)
     {
         if (keeps) keep(options, checkpointOf(sums, render, options, camera));

@@ -36,6 +36,9 @@ int runMerge(const Options& options);
 /// Throws the failures of files that the options ask for, as far as they are known before the work.
 void checkFiles(const Options& options);
 
+/// Throws Failure(kCannotLoad) if the file of --materials is wrong.
+void checkMaterials(const Options& options);
+
 /// Returns the scene below a group that also has the lights, or the scene itself if there are none.
 /// Throws Failure(kCannotLoad).
 osg::ref_ptr<osg::Node> lit(const osg::ref_ptr<osg::Node>& scene, const SceneLights& lights);

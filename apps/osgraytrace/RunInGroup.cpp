@@ -42,6 +42,8 @@ void help(Options options, Group& group)
 {
     try
     {
+        if (options.sendsScene) return helpWithoutModel(std::move(options), group);
+        checkMaterials(options);
         const osg::ref_ptr<osg::Node> scene = lit(readScene(options.models), options.lights);
         takeSettingsOf(*scene, options);
         TimedScene shown(options, scene);
@@ -63,6 +65,7 @@ int lead(const Options& options, Group& group)
 {
     try
     {
+        checkMaterials(options);
         return runPicture(options, &group);
     }
     catch (const Failure& failure)

@@ -87,6 +87,12 @@ osg::ref_ptr<osg::Node> lit(const osg::ref_ptr<osg::Node>& scene, const SceneLig
     return group;
 }
 
+void checkMaterials(const Options& options)
+{
+    const std::string error = options.settings->getMaterialsError();
+    if (!error.empty()) throw Failure(kCannotLoad, "--materials " + error);
+}
+
 void takeSettingsOf(osg::Node& scene, Options& options)
 {
     const osg::ref_ptr<RayTracedScene> stored = storedScene(scene);

@@ -57,9 +57,8 @@ int runCommandLine(int argc, char** argv)
         writeMaterials(*options);
         return kDone;
     }
-    const std::string materialsError = options->settings->getMaterialsError();
-    if (!materialsError.empty()) throw Failure(kCannotLoad, "--materials " + materialsError);
     if (options->mpi) return runInGroup(*options);
+    checkMaterials(*options);
     const std::string alone = whyNotAlone();
     if (!alone.empty()) throw Failure(kUsage, alone);
     return options->frames ? runFrames(*options) : runPicture(*options);

@@ -14,9 +14,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kSmall = 0x1p11f;   ///< values below go to low parts
-constexpr float kLargest = 0x1p40f; ///< values from here on are left out
-constexpr int kHighShift = 28;      ///< high parts are multiples of 2^28 low ones
+constexpr float kSmall = 0x1p11f;           ///< values below go to low parts
+constexpr uint32_t kSmallBits = 0x45000000; ///< the bits of kSmall
+constexpr float kLargest = 0x1p40f;         ///< values from here on are left out
+constexpr int kHighShift = 28;              ///< high parts are multiples of 2^28 low ones
 constexpr int64_t kLowMask = (int64_t(1) << kHighShift) - 1;
 
 /// After so many passes the low parts, which were below 2^61 and have grown by less than 2^51 a
@@ -24,42 +25,64 @@ constexpr int64_t kLowMask = (int64_t(1) << kHighShift) - 1;
 constexpr int kCarryPasses = 1024;
 
 /// Adding 1.5 * 2^52 to a number of magnitude below 2^51 rounds it to an integer, which stands in
-/// the lower bits of the result: x * 2^40 is exact.
+/// the lower bits of the result: x * 2^40 is exact. The bits of 1.5 * 2^52 are added to it.
+OSGRAYTRACE_INLINE uint64_t shiftedSmall(float value)
+{
+    const double shifted = static_cast<double>(value) * 0x1p40 + 0x1.8p52;
+    uint64_t bits = 0;
+    std::memcpy(&bits, &shifted, sizeof bits);
+    return bits;
+}
+constexpr uint64_t kShift = 0x4338000000000000; ///< the bits of 1.5 * 2^52
+
 OSGRAYTRACE_INLINE int64_t roundedSmall(float value)
 {
-    constexpr double kMagic = 0x1.8p52;
-    const double shifted = static_cast<double>(value) * 0x1p40 + kMagic;
-    int64_t bits = 0, magicBits = 0;
-    std::memcpy(&bits, &shifted, sizeof bits);
-    std::memcpy(&magicBits, &kMagic, sizeof magicBits);
-    return bits - magicBits;
+    return static_cast<int64_t>(shiftedSmall(value) - kShift);
 }
 
-/// Returns whether all values are small, and none is NaN.
+/// Values that a turn of the following loops takes, so that compilers unroll it.
+constexpr std::size_t kTurn = 32;
+static_assert(ExactSums::kValues % kTurn == 0);
+
+/// Returns whether all values are small, and none is NaN: the bits of magnitudes are in the order
+/// of the magnitudes, and those of NaN come after all.
 OSGRAYTRACE_KERNEL
 bool areSmall(const float* values)
 {
-    uint32_t others = 0;
-    OSGRAYTRACE_SIMD_OR(others)
-    for (std::size_t i = 0; i < ExactSums::kValues; ++i)
-        others |= std::fabs(values[i]) < kSmall ? 0u : 1u;
-    return others == 0;
+    uint32_t others[kTurn] = {}; // the highest bit tells
+    for (std::size_t first = 0; first < ExactSums::kValues; first += kTurn)
+    {
+        OSGRAYTRACE_SIMD
+        for (std::size_t i = 0; i < kTurn; ++i)
+        {
+            uint32_t bits = 0;
+            std::memcpy(&bits, &values[first + i], sizeof bits);
+            others[i] |= (bits & 0x7fffffffu) + (0x80000000u - kSmallBits);
+        }
+    }
+    uint32_t all = 0;
+    for (const uint32_t other : others)
+        all |= other;
+    return all < 0x80000000u;
 }
 
 OSGRAYTRACE_KERNEL
-void storeSmall(const float* __restrict values, int64_t* __restrict sums)
+void storeSmall(const float* __restrict values, uint64_t* __restrict sums)
 {
     OSGRAYTRACE_SIMD
     for (std::size_t i = 0; i < ExactSums::kValues; ++i)
-        sums[i] = roundedSmall(values[i]);
+        sums[i] = shiftedSmall(values[i]);
 }
 
 OSGRAYTRACE_KERNEL
-void addSmall(const float* __restrict values, int64_t* __restrict sums)
+void addSmall(const float* __restrict values, uint64_t* __restrict sums)
 {
-    OSGRAYTRACE_SIMD
-    for (std::size_t i = 0; i < ExactSums::kValues; ++i)
-        sums[i] += roundedSmall(values[i]);
+    for (std::size_t first = 0; first < ExactSums::kValues; first += kTurn)
+    {
+        OSGRAYTRACE_SIMD
+        for (std::size_t i = 0; i < kTurn; ++i)
+            sums[first + i] += shiftedSmall(values[first + i]);
+    }
 }
 
 /// Returns the sum as a double, rounded once. Processors before AVX-512 cannot convert vectors of
@@ -83,33 +106,35 @@ OSGRAYTRACE_INLINE uint64_t excess(int64_t low)
 }
 
 /// Writes the means of sums without high parts. Returns false, and nothing of use, if some need
-/// them.
+/// them. shift: see ExactSums::_shifts.
 OSGRAYTRACE_KERNEL
-bool meansOfLow(const int64_t* __restrict low, int count, float* __restrict values)
+bool meansOfLow(const uint64_t* __restrict low, uint64_t shift, int count, float* __restrict values)
 {
     uint64_t others = 0;
     const double passes = count;
     OSGRAYTRACE_SIMD_OR(others)
     for (std::size_t i = 0; i < ExactSums::kValues; ++i)
     {
-        others |= excess(low[i]);
-        values[i] = static_cast<float>(doubleOf(low[i]) * 0x1p-40 / passes);
+        const auto sum = static_cast<int64_t>(low[i] - shift);
+        others |= excess(sum);
+        values[i] = static_cast<float>(doubleOf(sum) * 0x1p-40 / passes);
     }
     return others == 0;
 }
 
 OSGRAYTRACE_KERNEL
-bool meansOfLow(const int64_t* __restrict a, const int64_t* __restrict b, int count,
-                float* __restrict values)
+bool meansOfLow(const uint64_t* __restrict a, uint64_t shiftA, const uint64_t* __restrict b,
+                uint64_t shiftB, int count, float* __restrict values)
 {
     uint64_t others = 0;
     const double passes = count;
     OSGRAYTRACE_SIMD_OR(others)
     for (std::size_t i = 0; i < ExactSums::kValues; ++i)
     {
-        const auto sum =
-            static_cast<int64_t>(static_cast<uint64_t>(a[i]) + static_cast<uint64_t>(b[i]));
-        others |= excess(a[i]) | excess(b[i]) | excess(sum);
+        const uint64_t first = a[i] - shiftA, second = b[i] - shiftB;
+        const auto sum = static_cast<int64_t>(first + second);
+        others |= excess(static_cast<int64_t>(first)) | excess(static_cast<int64_t>(second)) |
+                  excess(sum);
         values[i] = static_cast<float>(doubleOf(sum) * 0x1p-40 / passes);
     }
     return others == 0;
@@ -143,25 +168,31 @@ ExactSum added(const ExactSum& a, const ExactSum& b)
     return normalised(a.low + b.low, a.high + b.high);
 }
 
-ExactSums::ExactSums(std::size_t tiles) : _low(tiles * 2 * kValues), _high(tiles * 2) {}
+ExactSums::ExactSums(std::size_t tiles)
+    : _low(tiles * 2 * kValues), _shifts(tiles * 2, 0), _high(tiles * 2)
+{
+}
 
 int ExactSums::add(std::size_t tile, int half, int passes, const RgbaLanes* values)
 {
     const float* floats = values[0].r.v;
-    int64_t* sums = low(tile, half);
+    uint64_t* sums = low(tile, half);
+    uint64_t& shift = _shifts[index(tile, half)];
     if (passes == 0) _high[index(tile, half)].clear(); // of the image before
+    if (passes == 0) shift = 0;
     if (passes > 0 && passes % kCarryPasses == 0) carry(tile, half);
     if (areSmall(floats))
     {
+        shift += kShift;
         passes > 0 ? addSmall(floats, sums) : storeSmall(floats, sums);
         return 0;
     }
-    if (passes == 0) std::fill_n(sums, kValues, int64_t(0));
+    if (passes == 0) std::fill_n(sums, kValues, uint64_t(0));
     int leftOut = 0;
     for (std::size_t i = 0; i < kValues; ++i)
     {
         if (std::fabs(floats[i]) < kSmall)
-            sums[i] += roundedSmall(floats[i]);
+            sums[i] += static_cast<uint64_t>(roundedSmall(floats[i]));
         else if (!(std::fabs(floats[i]) < kLargest) || !addLarge(floats[i], largeOf(tile, half)[i]))
             ++leftOut;
     }
@@ -184,17 +215,19 @@ void ExactSums::carry(std::size_t tile, int half)
 
 void ExactSums::means(std::size_t tile, int half, int count, float* values) const
 {
-    const int64_t* sums = &_low[index(tile, half) * kValues];
-    if (_high[index(tile, half)].empty() && meansOfLow(sums, count, values)) return;
+    const std::size_t at = index(tile, half);
+    if (_high[at].empty() && meansOfLow(&_low[at * kValues], _shifts[at], count, values)) return;
     for (std::size_t i = 0; i < kValues; ++i)
         values[i] = meanOf(sum(tile, half, i), count);
 }
 
 void ExactSums::means(std::size_t tile, int count, float* values) const
 {
-    const int64_t *first = &_low[index(tile, 0) * kValues], *second = first + kValues;
-    const bool low = _high[index(tile, 0)].empty() && _high[index(tile, 1)].empty();
-    if (low && meansOfLow(first, second, count, values)) return;
+    const std::size_t first = index(tile, 0), second = index(tile, 1);
+    const bool low = _high[first].empty() && _high[second].empty();
+    if (low && meansOfLow(&_low[first * kValues], _shifts[first], &_low[second * kValues],
+                          _shifts[second], count, values))
+        return;
     for (std::size_t i = 0; i < kValues; ++i)
         values[i] = meanOf(added(sum(tile, 0, i), sum(tile, 1, i)), count);
 }
@@ -202,14 +235,16 @@ void ExactSums::means(std::size_t tile, int count, float* values) const
 ExactSum ExactSums::sum(std::size_t tile, int half, std::size_t i) const
 {
     OSGRAYTRACE_ASSERT(i < kValues);
-    const std::vector<int64_t>& large = _high[index(tile, half)];
-    return normalised(_low[index(tile, half) * kValues + i], large.empty() ? 0 : large[i]);
+    const std::size_t at = index(tile, half);
+    const std::vector<int64_t>& large = _high[at];
+    return normalised(static_cast<int64_t>(_low[at * kValues + i] - _shifts[at]),
+                      large.empty() ? 0 : large[i]);
 }
 
 void ExactSums::set(std::size_t tile, int half, std::size_t i, const ExactSum& sum)
 {
     OSGRAYTRACE_ASSERT(i < kValues);
-    low(tile, half)[i] = sum.low;
+    low(tile, half)[i] = static_cast<uint64_t>(sum.low) + _shifts[index(tile, half)];
     if (sum.high != 0 || !_high[index(tile, half)].empty()) largeOf(tile, half)[i] = sum.high;
 }
 

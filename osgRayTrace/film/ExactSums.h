@@ -66,11 +66,15 @@ private:
     {
         return tile * 2 + static_cast<std::size_t>(half);
     }
-    int64_t* low(std::size_t tile, int half) { return &_low[index(tile, half) * kValues]; }
+    uint64_t* low(std::size_t tile, int half) { return &_low[index(tile, half) * kValues]; }
     std::vector<int64_t>& largeOf(std::size_t tile, int half);
     void carry(std::size_t tile, int half);
 
-    UnclearedArray<int64_t> _low;            ///< [2^-40], by tile, half, value
+    UnclearedArray<uint64_t> _low; ///< [2^-40], by tile, half, value: the sum and the half's shift
+    /// What each value of a half has beside its sum, modulo 2^64, by tile, half: what rounds a
+    /// value to an integer is left in, as taking it out of each value would be a seventh of the
+    /// cost.
+    std::vector<uint64_t> _shifts;
     std::vector<std::vector<int64_t>> _high; ///< [2^-12], by tile, half; empty: all are 0
 };
 

@@ -168,6 +168,9 @@ TEST_CASE("mpi: what cannot be is said in one sentence", "[apps]")
         {2, 4, box + "--mpi -o none/x.png", "there is no folder none"},
         {2, 1, box + "--mpi --radius-schedule local", "each pass depends on all before"},
         {2, 1, box + "--mpi --context osmesa", "--mpi excludes --context"},
+        {2, 2, "none.osgt -o x.png --mpi --send-scene", "cannot load none.osgt"},
+        {1, 1, box + "--mpi --send-scene --shutter 1", "--send-scene excludes --shutter"},
+        {1, 1, box + "--send-scene", "--send-scene requires --mpi"},
     };
     for (const Case& each : cases)
     {
@@ -188,4 +191,35 @@ TEST_CASE("mpi: an error target ends with the same pass on any ranks", "[apps]")
                                 "--mpi --error 0.03 -o x" + std::to_string(ranks) + ".exr"))
                     .exitCode == 0);
     CHECK((contents(folder / "x1.exr") == contents(folder / "x3.exr")));
+}
+
+TEST_CASE("mpi: ranks that have neither model nor plugins get the scene of rank 0", "[apps]")
+{
+    // Others are in a folder without files, and look for plugins where there are none.
+    const TemporaryFolder folder, elsewhere;
+    std::filesystem::copy_file(OSGRAYTRACE_TEST_SOURCE "/data/cornell_box_glass.osgt",
+                               folder / "box.osgt");
+    const std::string others = ": -wdir '" + std::string(elsewhere / ".") +
+                               "' -n 2 env OSG_LIBRARY_PATH=/none OSG_FILE_PATH=/none "
+                               "'" OSGRAYTRACE_TEST_PROGRAM "' ";
+    for (const std::string integrator : {"path", "sppm"})
+    {
+        CAPTURE(integrator);
+        const std::string command =
+            "box.osgt" + kView + "--passes 24 --integrator " + integrator + " --checkpoint ";
+        std::filesystem::remove(folder / "one.exr");
+        std::filesystem::remove(folder / "all.exr");
+        REQUIRE(osgraytrace(folder, command + "one.exr").exitCode == 0);
+        const std::string own = command + "all.exr --mpi ";
+        CHECK(mpirun(folder, 1, own + others + own).exitCode != 0); // they cannot read the model
+        const Outcome outcome =
+            mpirun(folder, 1,
+                   own + "--send-scene " + others +
+                       "box.osgt --passes 24 --mpi --send-scene --checkpoint all.exr --seed 3 "
+                       "--size 9 9");
+        CAPTURE(outcome.errors);
+        REQUIRE(outcome.exitCode == 0);
+        CHECK((contents(folder / "all.exr") == contents(folder / "one.exr")));
+    }
+    CHECK(elsewhere.fileNames().empty());
 }

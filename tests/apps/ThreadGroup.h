@@ -88,6 +88,25 @@ public:
         return true;
     }
 
+    /// Takes rank 0's bytes.
+    void beginBroadcast(const unsigned char* bytes, std::size_t count)
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        _broadcast.assign(bytes, bytes + count);
+        _hasBroadcast = true;
+    }
+
+    /// Returns whether rank 0's bytes are there, and writes them.
+    bool endBroadcast(unsigned char* bytes, std::size_t count)
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        if (_aborted) throw Aborted(_code);
+        if (!_hasBroadcast) return false;
+        if (_broadcast.size() != count) throw std::logic_error("broadcasts of different counts");
+        std::copy(_broadcast.begin(), _broadcast.end(), bytes);
+        return true;
+    }
+
     void throwIfAborted()
     {
         const std::lock_guard<std::mutex> lock(_mutex);
@@ -126,6 +145,8 @@ private:
     int _turn = 0;
     std::vector<int> _sums;
     std::deque<Sum> _open;
+    std::vector<unsigned char> _broadcast;
+    bool _hasBroadcast = false;
     bool _aborted = false;
     int _code = 0;
 };
@@ -160,6 +181,14 @@ public:
     }
     bool sumIsDone() override { return _network.endSum(_rank, _values); }
 
+    void beginBroadcast(unsigned char* bytes, std::size_t count) override
+    {
+        _bytes = bytes;
+        _count = count;
+        if (_rank == 0) _network.beginBroadcast(bytes, count);
+    }
+    bool broadcastIsDone() override { return _network.endBroadcast(_bytes, _count); }
+
     [[noreturn]] void abort(int code) override
     {
         _network.abort(code);
@@ -170,4 +199,6 @@ private:
     ThreadNetwork& _network;
     int _rank;
     std::int64_t* _values = nullptr;
+    unsigned char* _bytes = nullptr;
+    std::size_t _count = 0;
 };
