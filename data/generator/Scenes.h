@@ -40,6 +40,10 @@ osg::ref_ptr<osg::Group> drinks();
 /// panes. Lengths are metres, z is up.
 osg::ref_ptr<osg::Group> hazeWindow();
 
+/// Returns a glass ball in fog, in the cone of a spot light that it gathers behind itself. Lengths
+/// are metres, z is up.
+osg::ref_ptr<osg::Group> glassBallFog();
+
 /// Returns an upright prism of glass in the beam of a spot light. Lengths are centimetres, z is up.
 osg::ref_ptr<osg::Group> prism();
 

@@ -34,6 +34,7 @@ int main(int argc, char** argv)
         {"cornell_box_fog.osgt", cornellBox(CornellVariant::Fog)},
         {"drinks.osgt", drinks()},
         {"haze_window.osgt", hazeWindow()},
+        {"glass_ball_fog.osgt", glassBallFog()},
         {"grids.osgt", grids()},
         {"furnace.osgt", furnace()},
         {"rings.osgt", rings()},

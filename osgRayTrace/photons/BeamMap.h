@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A beam is the way of a photon through a medium. Where it passes a ray within the radius r, the
-// medium scatters its light towards the ray [Jarosz11, eq. 30]:
+// medium scatters its light towards the ray [Jarosz11, beams and a kernel of one dimension]:
 //
 //   L += power sigmaS p(cosTheta) T_ray(t_ray) T_beam(t_beam) / (2 r sinTheta)
 //

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The photons that have collided within a sphere of radius r are an estimate of the radiance that a
-// medium scatters [Jensen98, eq. 13]:
+// medium scatters [Jensen98, the volume photon map]:
 //
 //   L = sigmaS sum over photons of power p(cosTheta) / (4/3 pi r^3)
 //

@@ -76,6 +76,7 @@ TEST_CASE("settings: every option has its documented default", "[api][settings]"
     CHECK(settings->getSeed() == 0u);
     CHECK(settings->getExposure() == 0.0f);
     CHECK(settings->getPhotonRadius() == 0.0f);
+    CHECK(settings->getPhotonBeams() == 4096);
     CHECK(settings->getPhotonAlpha() == Approx(2.0f / 3.0f));
     CHECK(settings->getRadiusSchedule() == RayTraceSettings::GLOBAL);
     CHECK(settings->getPhotonGuiding());

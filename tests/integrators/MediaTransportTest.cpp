@@ -216,7 +216,7 @@ TEST_CASE("media: Whitted's integrator has single scattering and dims lights",
     CHECK(picture.progress.mediumNote == MediumNote::SingleOnly);
 }
 
-TEST_CASE("media: paths in place of photons, and the same bits for any number of threads",
+TEST_CASE("media: the choice of the integrator, and the same bits for any number of threads",
           "[integrators][media]")
 {
     SceneBuilder builder = cornellBox();
@@ -231,11 +231,22 @@ TEST_CASE("media: paths in place of photons, and the same bits for any number of
     CHECK(one.progress.collisions > 0);
     CHECK(one.progress.mediumNote == MediumNote::None);
     const Picture photons = render(traced, view, optionsOf(IntegratorKind::PhotonCaustics), 2, 1);
-    CHECK(photons.progress.integrator == IntegratorKind::Path);
-    CHECK(photons.progress.mediumNote == MediumNote::PathsInstead);
-    CHECK(photons.rgba == one.rgba);
+    CHECK(photons.progress.integrator == IntegratorKind::PhotonCaustics);
+    CHECK(photons.progress.mediumNote == MediumNote::None);
+    CHECK(photons.progress.storedBeams > 0);
     CHECK(render(traced, view, optionsOf(IntegratorKind::Automatic), 1).progress.integrator ==
+          IntegratorKind::PhotonCaustics);
+
+    SceneBuilder glowing = cornellBox();
+    Medium medium = mediumOf(1.0f / 500.0f, 0.9f);
+    medium.emission = Vec3(1e-3f);
+    setAtmosphere(glowing, medium, 800.0f, middle);
+    const auto lit = glowing.build();
+    CHECK(render(lit, view, optionsOf(IntegratorKind::Automatic), 1).progress.integrator ==
           IntegratorKind::Path);
+    const Picture paths = render(lit, view, optionsOf(IntegratorKind::Sppm), 1);
+    CHECK(paths.progress.integrator == IntegratorKind::Path);
+    CHECK(paths.progress.mediumNote == MediumNote::PathsInstead);
 }
 
 TEST_CASE("media: walks that do not end are cut and counted", "[integrators][media]")
