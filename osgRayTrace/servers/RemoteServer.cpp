@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr double kAskInterval = 1.0;   ///< [s]
+constexpr double kAskInterval = 0.5;   ///< [s]
 constexpr double kHelloInterval = 0.3; ///< [s]
 /// A server that has tiles and says nothing for so long is silent [s]; one that prepares scenes
 /// for other views may take as long as it took for the last one of this viewer.
