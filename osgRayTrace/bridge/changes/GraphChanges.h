@@ -38,7 +38,8 @@ struct MovedUse : ChangedUse
 /// Names a use that has other state, or other arrays.
 struct StateChange : MovedUse
 {
-    osg::NodePath path; ///< path from the first node that was found to the geometry
+    bool looksOnly = false; ///< only values of osg::Material and osg::Fog are others
+    osg::NodePath path;     ///< path from the first node that was found to the geometry
 };
 
 /// Names nodes that came or went.

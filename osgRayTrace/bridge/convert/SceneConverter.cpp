@@ -133,7 +133,8 @@ ConvertedNodes SceneConverter::convertedNodes() const
 {
     const ConvertedGraph& graph = _implementation->convertedGraph;
     return {graph.cullWatch.captured(), graph.inScene ? &*graph.inScene : nullptr,
-            graph.cuttingPlanes};
+            graph.cuttingPlanes,
+            [&graph](const osg::Geometry& geometry) { return graph.index.isLeft(geometry); }};
 }
 
 void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& changes) const
