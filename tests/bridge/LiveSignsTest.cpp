@@ -5,8 +5,11 @@
 #include "tests/bridge/LiveGraph.h"
 
 #include <osg/ClipNode>
+#include <osg/Depth>
+#include <osg/Fog>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
+#include <osg/Program>
 
 #include <algorithm>
 #include <stdexcept>
@@ -96,6 +99,74 @@ TEST_CASE("live signs: clip planes that are turned on when nothing was clipped",
         graph.root->addChild(added);
         checkShown(view, *graph.root);
     }
+}
+
+TEST_CASE("live signs: fog that drifts is a change once the drift can be seen", "[bridge]")
+{
+    LiveGraph graph;
+    osg::ref_ptr<osg::Fog> fog = new osg::Fog;
+    fog->setMode(osg::Fog::EXP);
+    fog->setDensity(0.1f);
+    fog->setColor({0.9f, 0.1f, 0.6f, 1.0f});
+    graph.root->getOrCreateStateSet()->setAttributeAndModes(fog);
+    LiveView view(graph.root.get());
+    view.image();
+    const auto scene = view.scene();
+    for (int frame = 1; frame <= 5; ++frame)
+    {
+        fog->setColor({0.9f + 2e-6f * float(frame), 0.1f, 0.6f, 1.0f});
+        fog->setDensity(0.1f + 1e-7f * float(frame));
+        view.update();
+        CHECK(view.scene() == scene);
+    }
+    const auto drift = GENERATE(0.1f, -0.1f);
+    for (int frame = 1; frame <= 20; ++frame)
+    {
+        fog->setColor({0.9f, 0.1f, 0.6f + drift * float(frame) / 20.0f, 1.0f});
+        view.update();
+    }
+    CHECK(view.scene() != scene);
+    checkShown(view, *graph.root);
+    fog->setDensity(0.102f);
+    checkShown(view, *graph.root);
+}
+
+TEST_CASE("live signs: the look of what OSG alone draws is no change, and what decides on it is",
+          "[bridge]")
+{
+    LiveGraph graph;
+    osg::StateSet& sky = *graph.objects[2]->getStateSet();
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, "void main() {}"));
+    sky.setAttributeAndModes(program);
+    sky.setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0.0, 1.0, false));
+    const osg::Vec4 blue(0.2f, 0.3f, 0.9f, 1.0f);
+    osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(1, &blue);
+    graph.geometry(2).setColorArray(colors, osg::Array::BIND_OVERALL);
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setColorMode(osg::Material::DIFFUSE);
+    sky.setAttributeAndModes(material);
+    LiveView view(graph.root.get());
+    view.image();
+    REQUIRE(view.statistics().conversion.count("traced.proxy") == 0);
+    const Statistics before = view.statistics();
+    for (int frame = 1; frame <= 3; ++frame)
+    {
+        material->setDiffuse(osg::Material::FRONT_AND_BACK,
+                             osg::Vec4(0.2f * float(frame), 0, 0, 1));
+        colors->front().x() = 0.2f * float(frame);
+        colors->dirty();
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    }
+    CHECK(view.statistics().conversions == before.conversions);
+    sky.removeAttribute(osg::StateAttribute::PROGRAM);
+    sky.removeAttribute(osg::StateAttribute::DEPTH);
+    checkShown(view, *graph.root);
+    CHECK(view.statistics().conversions == before.conversions + 1);
+    colors->front().y() = 0.1f;
+    colors->dirty();
+    checkShown(view, *graph.root);
+    CHECK(view.statistics().conversions == before.conversions + 2);
 }
 
 TEST_CASE("live signs: what is written without a sign shows once the scene is said to be dirty",

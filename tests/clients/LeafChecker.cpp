@@ -360,6 +360,24 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
 {
     Situation now(scene, visitor, masks);
     if (!now.isKnown) return;
+    const auto begin = [&](osgUtil::CullVisitor& clone)
+    {
+        clone.pushOntoNodePath(&scene);
+        if (scene.getStateSet()) clone.pushStateSet(scene.getStateSet());
+    };
+    const auto plainLeaves = [&]
+    {
+        return leavesOf(*now.conditions.pass, now.conditions,
+                        [&](osgUtil::CullVisitor& clone)
+                        {
+                            begin(clone);
+                            for (unsigned int i = 0; i < scene.getNumChildren(); ++i)
+                                scene.getChild(i)->accept(clone);
+                        });
+    };
+    // A callback may set the matrix of its transform, which has been taken by then: it holds from
+    // the second traversal of a frame on, as that of FlightGear's spins.
+    plainLeaves();
     SoftwareVertices vertices;
     DrawableTriangles triangles;
     const TextureConverter textures;
@@ -369,18 +387,7 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
     now.root->accept(collector);
     const CollectedGraph graph = collector.take();
 
-    const auto begin = [&](osgUtil::CullVisitor& clone)
-    {
-        clone.pushOntoNodePath(&scene);
-        if (scene.getStateSet()) clone.pushStateSet(scene.getStateSet());
-    };
-    const Leaves plain = leavesOf(*now.conditions.pass, now.conditions,
-                                  [&](osgUtil::CullVisitor& clone)
-                                  {
-                                      begin(clone);
-                                      for (unsigned int i = 0; i < scene.getNumChildren(); ++i)
-                                          scene.getChild(i)->accept(clone);
-                                  });
+    const Leaves plain = plainLeaves();
     const Leaves drawn = leavesOf(*now.conditions.pass, now.conditions,
                                   [&](osgUtil::CullVisitor& clone)
                                   {

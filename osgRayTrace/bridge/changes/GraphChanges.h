@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/changes/ConversionReason.h"
 #include "osgRayTrace/bridge/common/ObjectIdentity.h"
+#include "osgRayTrace/bridge/graph/CullOutcome.h"
 
 #include <osg/ClipNode>
 #include <osg/Geometry>
@@ -12,7 +13,9 @@
 #include <osg/Vec4>
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -35,7 +38,8 @@ struct MovedUse : ChangedUse
 /// Names a use that has other state, or other arrays.
 struct StateChange : MovedUse
 {
-    osg::NodePath path; ///< path from the first node that was found to the geometry
+    bool looksOnly = false; ///< only values of osg::Material and osg::Fog are others
+    osg::NodePath path;     ///< path from the first node that was found to the geometry
 };
 
 /// Names nodes that came or went.
@@ -56,6 +60,17 @@ struct PlacedClip
     osg::Matrixd sceneFromPlanes;
 };
 
+/// Names proxies of a cull traversal that came or went.
+struct CullSplice
+{
+    osg::NodePath path;              ///< from the root to the node whose cull traversal shows them
+    std::vector<ChangedUse> removed; ///< each the only use of its geometry
+    std::vector<CulledLeaf> gone;    ///< keeps alive the geometries of removed
+    std::vector<CulledLeaf> added;
+    std::vector<const osg::Geometry*> left;    ///< geometries that OSG draws now, without proxies
+    std::map<std::string, int64_t> countsMore; ///< what the report counts more; fewer: below 0
+};
+
 /// Names what of a view's conditions has changed without the graph.
 struct ViewChange
 {
@@ -72,6 +87,7 @@ struct GraphChanges
     bool record = false;              ///< true: the graph must be recorded again as well
     ConversionReason reason;          ///< why convert is set: the first reason that was found
     std::vector<GraphSplice> splices; ///< in the order in which they are to be made
+    std::vector<CullSplice> culled;
     std::vector<MovedUse> moved;
     /// Geometries with other positions, normals or primitives.
     std::vector<const osg::Geometry*> deformed;
@@ -88,7 +104,7 @@ struct GraphChanges
 private:
     bool noneInGraph() const
     {
-        return !convert && splices.empty() && moved.empty() && deformed.empty() &&
+        return !convert && splices.empty() && culled.empty() && moved.empty() && deformed.empty() &&
                stateChanges.empty() && !lights && clips.empty();
     }
 };

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/changes/WatchedGraph.h"
 #include "osgRayTrace/bridge/common/ViewingConditions.h"
 
+#include <functional>
 #include <unordered_set>
 
 namespace osgRayTrace::engine
@@ -18,6 +19,7 @@ struct ConvertedNodes
     const std::unordered_set<const osg::Node*>& captured; ///< see CullWatch
     const std::unordered_set<const osg::Node*>* inScene; ///< CollectedGraph::inScene; null: unknown
     uint64_t cuttingPlanes = ~uint64_t(0);               ///< CollectedGraph::cuttingPlanes
+    std::function<bool(const osg::Geometry&)> isLeft;    ///< SceneIndex::isLeft; null: unknown
 };
 
 /// Holds a graph as it was seen last (see WatchedGraph). A look compares the nodes of the graph one

@@ -39,7 +39,7 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     if (stateSet != before)
     {
         _graph.setState(node.state, stateSet);
-        node.stateChanged = _anyStateChanged = known = true;
+        node.stateChanged = node.stateDecides = _anyStateChanged = known = true;
     }
     const std::size_t splices = changes.splices.size();
     if (node.node->asGroup() && !redoChildren(index, changes)) return false;

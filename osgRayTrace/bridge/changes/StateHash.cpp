@@ -27,6 +27,8 @@
 #include <osg/Texture>
 #include <osg/UserDataContainer>
 
+#include <cmath>
+
 namespace osgRayTrace::engine
 {
 
@@ -78,9 +80,29 @@ bool isOfTheFrame(const osg::StateAttribute& attribute, bool ofNode)
            (attribute.getType() == osg::StateAttribute::COLORMASK && !ofNode);
 }
 
-void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute)
+/// Adds a number that changes by steps of 1/1024 of a value, or of 1.
+void addStep(Hasher& hasher, double value)
+{
+    hasher.add(std::floor(1024.0 * value));
+}
+
+/// Adds the values of fog. Colours and densities that drift from frame to frame, as by the time of
+/// day, count in steps that nobody sees.
+void addFog(Hasher& hasher, const osg::Fog& fog)
+{
+    hasher.add(fog.getMode(), fog.getStart(), fog.getEnd(), fog.getUseRadialFog(),
+               fog.getFogCoordinateSource(), fog.getDensity() > 0.0f);
+    if (fog.getDensity() > 0.0f) addStep(hasher, std::log(double(fog.getDensity())));
+    for (int c = 0; c < 4; ++c)
+        addStep(hasher, fog.getColor()[c]);
+}
+
+void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute, bool looks)
 {
     hasher.addObject(&attribute);
+    const bool isLook = dynamic_cast<const osg::Material*>(&attribute) ||
+                        attribute.getType() == osg::StateAttribute::FOG;
+    if (isLook && !looks) return;
     if (const auto* material = dynamic_cast<const osg::Material*>(&attribute))
         addMaterial(hasher, *material);
     else if (const osg::Texture* texture = attribute.asTexture())
@@ -119,8 +141,7 @@ void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute)
     else if (const auto* plane = dynamic_cast<const osg::ClipPlane*>(&attribute))
         hasher.add(plane->getClipPlaneNum(), plane->getClipPlane());
     else if (const auto* fog = dynamic_cast<const osg::Fog*>(&attribute))
-        hasher.add(fog->getMode(), fog->getDensity(), fog->getStart(), fog->getEnd(),
-                   fog->getColor(), fog->getUseRadialFog(), fog->getFogCoordinateSource());
+        addFog(hasher, *fog);
     else if (const auto* front = dynamic_cast<const osg::FrontFace*>(&attribute))
         hasher.add(front->getMode());
     else if (const auto* mask = dynamic_cast<const osg::ColorMask*>(&attribute))
@@ -130,13 +151,14 @@ void addAttribute(Hasher& hasher, const osg::StateAttribute& attribute)
                    depth->getWriteMask());
 }
 
-void addAttributes(Hasher& hasher, const osg::StateSet::AttributeList& attributes, bool ofNode)
+void addAttributes(Hasher& hasher, const osg::StateSet::AttributeList& attributes, bool ofNode,
+                   bool looks)
 {
     for (const auto& item : attributes)
     {
         if (isOfTheFrame(*item.second.first, ofNode)) continue;
         hasher.add(item.second.second);
-        addAttribute(hasher, *item.second.first);
+        addAttribute(hasher, *item.second.first, looks);
     }
 }
 
@@ -222,17 +244,18 @@ void addTexGen(Hasher& hasher, const osg::TexGen& texGen)
             hasher.add(texGen.getPlane(coordinate)[k]);
 }
 
-void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads)
+void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads,
+                 bool looks)
 {
     if (reads) addRead(hasher, stateSet, *reads);
     const bool ofNode = stateSet.getNumParents() > 0;
     if (stateSet.useRenderBinDetails()) hasher.add(stateSet.getBinNumber());
     addModes(hasher, stateSet.getModeList());
-    addAttributes(hasher, stateSet.getAttributeList(), ofNode);
+    addAttributes(hasher, stateSet.getAttributeList(), ofNode, looks);
     for (const auto& modes : stateSet.getTextureModeList())
         addModes(hasher, modes);
     for (const auto& attributes : stateSet.getTextureAttributeList())
-        addAttributes(hasher, attributes, ofNode);
+        addAttributes(hasher, attributes, ofNode, looks);
 }
 
 } // namespace osgRayTrace::engine

@@ -18,8 +18,10 @@ namespace osgRayTrace::engine
 
 /// Adds modes, and attributes with their values and the modified counts of their images. Attributes
 /// that belong to the frame, such as the viewport, are left out. reads: adds which uniforms and
-/// user values there are, and the values of those that rules read; null: none.
-void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads);
+/// user values there are, and the values of those that rules read; null: none. looks: adds the
+/// values of osg::Material and osg::Fog, too, which do not decide on who draws a surface.
+void addStateSet(Hasher& hasher, const osg::StateSet& stateSet, const ShaderReads* reads,
+                 bool looks = true);
 
 void addLight(Hasher& hasher, const osg::Light& light);
 

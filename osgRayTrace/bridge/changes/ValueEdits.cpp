@@ -24,7 +24,7 @@ bool GraphWatch::lookAtGeometry(uint32_t index, GraphChanges& changes)
     if (geometry.getStateSet() == watched.stateSet && arrays == watched.arrays) return true;
     _graph.setState(watched.state, geometry.getStateSet());
     watched.stateSet = geometry.getStateSet();
-    watched.stateChanged = _anyStateChanged = true;
+    watched.stateChanged = watched.stateDecides = _anyStateChanged = true;
     if (arrays == watched.arrays) return true;
     watched.arrays = arrays;
     _exchanged.push_back(index);
@@ -46,7 +46,8 @@ void GraphWatch::lookAtBuffers(GraphChanges& changes)
         buffer.hash = hash;
         if (!buffer.contents.change(*buffer.data)) continue;
         const osg::Geometry* geometry = _graph.geometries[buffer.geometry].geometry;
-        if (!buffer.shape && !changes.convert) // the buffer may be a part of the material
+        const bool left = _converted && _converted->isLeft && _converted->isLeft(*geometry);
+        if (!buffer.shape && !left && !changes.convert) // the buffer may be a part of the material
         {
             changes.convert = true;
             changes.reason = {ConversionCause::VertexAttributes, pathOf(*geometry, 0), nullptr, 0};
@@ -61,13 +62,16 @@ void GraphWatch::lookAtStates()
     bool any = false;
     for (WatchedState& state : _graph.states)
     {
-        state.changed = false;
+        state.changed = state.decides = false;
         if (!state.stateSet) continue;
         Hasher hasher;
         addStateSet(hasher, *state.stateSet, _graph.reads.get());
         state.changed = hasher.value() != state.hash;
         if (!state.changed) continue;
         any = true;
+        const uint64_t decisions = _graph.decisionsHash(*state.stateSet);
+        state.decides = decisions != state.decisions;
+        state.decisions = decisions;
         KeptObjects kept;
         Hasher now(&kept);
         addStateSet(now, *state.stateSet, _graph.reads.get());
@@ -77,10 +81,17 @@ void GraphWatch::lookAtStates()
     if (!any) return;
     _anyStateChanged = true;
     for (WatchedNode& node : _graph.nodes)
-        if (node.state != kNowhere) node.stateChanged |= _graph.states[node.state].changed;
+        if (node.state != kNowhere)
+        {
+            node.stateChanged |= _graph.states[node.state].changed;
+            node.stateDecides |= _graph.states[node.state].decides;
+        }
     for (WatchedGeometry& geometry : _graph.geometries)
         if (geometry.state != kNowhere)
+        {
             geometry.stateChanged |= _graph.states[geometry.state].changed;
+            geometry.stateDecides |= _graph.states[geometry.state].decides;
+        }
 }
 
 void GraphWatch::lookAtLights(GraphChanges& changes)
@@ -134,14 +145,16 @@ void GraphWatch::findChanged(GraphChanges& changes)
     };
     for (WatchedGeometry& geometry : _graph.geometries)
         geometry.counted = 0;
-    uint32_t stateChangedEnd = 0;
+    uint32_t stateChangedEnd = 0, stateDecidesEnd = 0;
     for (uint32_t i = 0; i < _graph.nodes.size(); ++i)
     {
         WatchedNode& node = _graph.nodes[i];
         if (node.stateChanged) stateChangedEnd = std::max(stateChangedEnd, node.end);
-        node.stateChanged = false;
+        if (node.stateDecides) stateDecidesEnd = std::max(stateDecidesEnd, node.end);
+        node.stateChanged = node.stateDecides = false;
         bool stateChanged = i < stateChangedEnd;
-        if (stateChanged && node.kind == NodeKind::Untracked)
+        const bool decides = i < stateDecidesEnd;
+        if (stateChanged && node.kind == NodeKind::Untracked && (decides || !isOutOfScene(node)))
             mustConvert(changes, ConversionCause::UntrackedState, i);
         const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
         if (moved && node.kind == NodeKind::Untracked)
@@ -162,11 +175,12 @@ void GraphWatch::findChanged(GraphChanges& changes)
         static_cast<ChangedUse&>(other) = use;
         other.worldFromLocal = matrixOf(node.place);
         other.path = _graph.pathTo(i);
+        other.looksOnly = !decides && !watched.stateDecides;
     }
     for (WatchedPlace& place : _graph.places)
         place.moved = false;
     for (WatchedGeometry& geometry : _graph.geometries)
-        geometry.stateChanged = false;
+        geometry.stateChanged = geometry.stateDecides = false;
 }
 
 } // namespace osgRayTrace::engine

@@ -51,6 +51,13 @@ void WatchedGraph::fix(uint32_t place)
         places[place].fixed = true;
 }
 
+uint64_t WatchedGraph::decisionsHash(const osg::StateSet& stateSet) const
+{
+    Hasher hasher;
+    addStateSet(hasher, stateSet, reads.get(), false);
+    return hasher.value();
+}
+
 void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
 {
     const uint32_t before = state;
@@ -66,6 +73,7 @@ void WatchedGraph::setState(uint32_t& state, const osg::StateSet* stateSet)
             Hasher hasher(&fresh.kept);
             addStateSet(hasher, *stateSet, reads.get());
             fresh.hash = hasher.value();
+            fresh.decisions = decisionsHash(*stateSet);
         }
         state = known->second;
         ++states[state].uses;

@@ -45,6 +45,7 @@ struct WatchedNode
     uint8_t hint = 0;
     bool repeated = false;     ///< true: the same node came before, and the look is taken there
     bool stateChanged = false; ///< while a look runs: the node's state has changed
+    bool stateDecides = false; ///< while a look runs: more than the look of surfaces is another
 };
 
 /// Holds a transform on a path.
@@ -70,6 +71,7 @@ struct WatchedGeometry
     uint64_t looked = 0;
     uint32_t counted = 0;
     bool stateChanged = false; ///< true: the geometry has other state or arrays
+    bool stateDecides = false; ///< as in WatchedNode
 };
 
 struct WatchedBuffer
@@ -86,9 +88,11 @@ struct WatchedState
 {
     Kept<const osg::StateSet> stateSet; ///< null: gone
     uint64_t hash = 0;
-    KeptObjects kept;     ///< objects in the hash
-    uint32_t uses = 0;    ///< number of nodes and geometries that use it
-    bool changed = false; ///< while a look runs
+    uint64_t decisions = 0; ///< hash without the values that only change the look of surfaces
+    KeptObjects kept;       ///< objects in the hash
+    uint32_t uses = 0;      ///< number of nodes and geometries that use it
+    bool changed = false;   ///< while a look runs
+    bool decides = false;   ///< while a look runs: decisions has changed
 };
 
 struct WatchedLight
@@ -173,6 +177,9 @@ struct WatchedGraph
 
     /// Returns whether a node in the subtree is also elsewhere, and looked at in one place alone.
     bool isRepeatedElsewhere(uint32_t at) const;
+
+    /// Returns the value of WatchedState::decisions.
+    uint64_t decisionsHash(const osg::StateSet& stateSet) const;
 
     void setState(uint32_t& state, const osg::StateSet* stateSet);
 

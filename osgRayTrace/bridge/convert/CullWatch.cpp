@@ -59,6 +59,29 @@ bool showsAnything(const osg::Matrixd& worldFromLocal)
     return placingMatrix(worldFromLocal, 0.0).has_value();
 }
 
+/// Returns how many leaves OSG draws, by the reason that the report counts.
+std::map<std::string, int64_t> leftOf(const std::vector<CulledLeaf>& leaves)
+{
+    std::map<std::string, int64_t> left;
+    for (const CulledLeaf& leaf : leaves)
+        if (leaf.left) ++left[leaf.left];
+    return left;
+}
+
+/// Returns whether leaves in the scene are of the same drawables, in the same order and way.
+bool sameDrawables(const std::vector<CulledLeaf>& before, const std::vector<CulledLeaf>& now)
+{
+    auto next = before.begin();
+    for (const CulledLeaf& leaf : now)
+    {
+        if (!leaf.isInScene()) continue;
+        if (next == before.end() || next->drawable != leaf.drawable || next->proxy != leaf.proxy)
+            return false;
+        ++next;
+    }
+    return next == before.end();
+}
+
 /// Returns the part of the scene that each leaf has become, by its number.
 std::unordered_map<uint32_t, ChangedUse> usesOf(const CollectedGraph& graph)
 {
@@ -145,6 +168,7 @@ void CullWatch::record(CollectedGraph& graph, std::shared_ptr<const ShaderReads>
     {
         Watched& watched = _watched.emplace_back();
         watched.drawn = outcome.isDrawn();
+        watched.left = leftOf(outcome.leaves);
         if (outcome.kind == CullOutcome::Captured) _captured.insert(outcome.path.back());
         for (CulledLeaf& leaf : std::exchange(outcome.leaves, {}))
         {
@@ -195,16 +219,87 @@ bool CullWatch::compare(Watched& before, CullOutcome& now, double eyeDistance,
                         CullChanges& changes) const
 {
     if (now.kind != before.outcome.kind || now.isDrawn() != before.drawn) return false;
-    std::size_t count = 0;
+    CullSplice splice;
+    splice.path = before.outcome.path;
+    std::map<std::string, int64_t> left = leftOf(now.leaves);
+    if (left != before.left)
+    {
+        splice.countsMore = left;
+        for (const auto& [reason, count] : before.left)
+            splice.countsMore[reason] -= count;
+        before.left = std::move(left);
+    }
+    if (!sameDrawables(before.leaves, now.leaves))
+    {
+        if (!spliceLeaves(before, now, eyeDistance, changes, splice)) return false;
+    }
+    else
+    {
+        std::size_t count = 0;
+        for (const CulledLeaf& leaf : now.leaves)
+        {
+            if (!leaf.isInScene()) continue;
+            if (!compare(before.leaves[count], before.values[count], leaf, eyeDistance, changes))
+                return false;
+            ++count;
+        }
+    }
+    if (splice.removed.empty() && splice.added.empty() && splice.countsMore.empty()) return true;
+    for (const CulledLeaf& leaf : now.leaves)
+        if (leaf.left && !leaf.proxy && !leaf.made && leaf.drawable->asGeometry())
+            splice.left.push_back(leaf.drawable->asGeometry());
+    changes.splices.push_back(std::move(splice));
+    return true;
+}
+
+/// Finds which proxies of a subtree came and went, and what differs in the other leaves. Returns
+/// false if the graph must be converted: something that is traced came or went, a drawable has
+/// several leaves, or the order is another one.
+bool CullWatch::spliceLeaves(Watched& before, const CullOutcome& now, double eyeDistance,
+                             CullChanges& changes, CullSplice& splice) const
+{
+    std::unordered_map<const osg::Drawable*, std::size_t> indexOf;
+    for (std::size_t i = 0; i < before.leaves.size(); ++i)
+        if (!indexOf.try_emplace(before.leaves[i].drawable, i).second) return false;
+    std::unordered_set<const osg::Drawable*> seen;
+    std::vector<CulledLeaf> leaves;
+    std::vector<WatchedLeaf> values;
+    std::size_t next = 0;
     for (const CulledLeaf& leaf : now.leaves)
     {
         if (!leaf.isInScene()) continue;
-        if (count == before.leaves.size() ||
-            !compare(before.leaves[count], before.values[count], leaf, eyeDistance, changes))
-            return false;
-        ++count;
+        if (!seen.insert(leaf.drawable).second) return false;
+        const auto found = indexOf.find(leaf.drawable);
+        if (found == indexOf.end())
+        {
+            const osg::Geometry* geometry = leaf.drawable->asGeometry();
+            if (!leaf.proxy || leaf.made || !geometry) return false;
+            splice.added.push_back(leaf);
+            leaves.push_back(leaf);
+            values.push_back(valuesOf(leaf));
+            values.back().use = {geometry, 0, 1};
+            continue;
+        }
+        if (found->second < next) return false;
+        next = found->second + 1;
+        CulledLeaf& then = before.leaves[found->second];
+        WatchedLeaf& thenValues = before.values[found->second];
+        if (!compare(then, thenValues, leaf, eyeDistance, changes)) return false;
+        leaves.push_back(then);
+        values.push_back(std::move(thenValues));
     }
-    return count == before.leaves.size();
+    for (std::size_t i = 0; i < before.leaves.size(); ++i)
+    {
+        CulledLeaf& leaf = before.leaves[i];
+        if (seen.count(leaf.drawable)) continue;
+        const ChangedUse& use = before.values[i].use;
+        if (!leaf.proxy || (use.geometry && use.uses != 1)) return false;
+        if (use.geometry) splice.removed.push_back(use);
+        splice.gone.push_back(std::move(leaf));
+    }
+    before.leaves = std::move(leaves);
+    before.values = std::move(values);
+    return true;
 }
 
 CullChanges CullWatch::look(const ConversionInput& input, const Caches& caches)
@@ -260,6 +355,7 @@ bool CullWatch::lookAt(Watched& watched, CullRepetition& repetition, const Conve
     unused.setPlace({});
     if (!now || !compare(watched, *now, input.eye.length(), changes)) return false;
     watched.signature = record.signature();
+    watched.captured = record.size();
     watched.content = content;
     return true;
 }

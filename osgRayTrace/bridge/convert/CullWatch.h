@@ -14,7 +14,9 @@
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <unordered_set>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct CullChanges
     bool complete = true; ///< false: the look has left out subtrees
     std::vector<MovedUse> moved;
     std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives
+    std::vector<CullSplice> splices;
 };
 
 /// Holds the decisions on the subtrees that may draw in cull alone, and repeats them.
@@ -72,13 +75,14 @@ private:
 
     struct Watched
     {
-        CullOutcome outcome;             ///< without leaves
-        bool drawn = false;              ///< CullOutcome::isDrawn()
-        std::vector<CulledLeaf> leaves;  ///< those in the scene
-        std::vector<WatchedLeaf> values; ///< of those leaves
-        std::size_t captured = 0;        ///< number of all leaves of the cull traversal
-        uint64_t signature = 0;          ///< CullRecord::signature()
-        uint64_t content = 0;            ///< hash of all values that the outcome depends on
+        CullOutcome outcome;                 ///< without leaves
+        bool drawn = false;                  ///< CullOutcome::isDrawn()
+        std::vector<CulledLeaf> leaves;      ///< those in the scene
+        std::vector<WatchedLeaf> values;     ///< of those leaves
+        std::size_t captured = 0;            ///< number of all leaves of the cull traversal
+        uint64_t signature = 0;              ///< CullRecord::signature()
+        uint64_t content = 0;                ///< hash of all values that the outcome depends on
+        std::map<std::string, int64_t> left; ///< numbers of leaves that OSG draws, by their reason
     };
 
     bool lookAt(Watched& watched, CullRepetition& repetition, const ConversionInput& input,
@@ -91,6 +95,8 @@ private:
     bool sameStates(const CulledLeaf& before, const WatchedLeaf& values,
                     const CulledLeaf& now) const;
     bool compare(Watched& before, CullOutcome& now, double eyeDistance, CullChanges& changes) const;
+    bool spliceLeaves(Watched& before, const CullOutcome& now, double eyeDistance,
+                      CullChanges& changes, CullSplice& splice) const;
     bool compare(CulledLeaf& before, WatchedLeaf& values, const CulledLeaf& now, double eyeDistance,
                  CullChanges& changes) const;
 

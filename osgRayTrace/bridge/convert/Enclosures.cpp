@@ -14,9 +14,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// A dome may end this share of its size above what stands in it.
-constexpr double kMargin = 0.1;
-
 /// At most so many places of the rest of the graph are looked at.
 constexpr std::size_t kMostPlaces = 16;
 
@@ -29,7 +26,7 @@ struct Box
     double diagonal() const { return glm::length(high - low); }
     bool contains(const Box& other) const
     {
-        const Vec3d margin = kMargin * (high - low);
+        const Vec3d margin = kEnclosureMargin * (high - low);
         return glm::all(glm::lessThanEqual(low - margin, other.low)) &&
                glm::all(glm::lessThanEqual(other.high, high + margin));
     }

@@ -8,6 +8,9 @@
 namespace osgRayTrace::engine
 {
 
+/// A dome may end this share of its size above what stands in it.
+constexpr double kEnclosureMargin = 0.1;
+
 /// Drops each proxy that encloses all the rest of the graph and cuts the rest off from a light
 /// outside, as the dome of a sky does. The bounds of the geometries must be set, and the unit not
 /// yet applied.

@@ -67,9 +67,12 @@ bool isComparable(const Scene& last, const Vec3d& origin, const BuildRules& rule
            last.displayReferred == !rules.linear;
 }
 
-void addToCount(ConversionCounts& counts, const char* what, int64_t more)
+void addToCount(ConversionCounts& counts, const std::string& what, int64_t more)
 {
-    if (more != 0) counts[what] += static_cast<uint64_t>(more);
+    if (more == 0) return;
+    uint64_t& count = counts[what];
+    count += static_cast<uint64_t>(more);
+    if (count == 0) counts.erase(what);
 }
 
 } // namespace
@@ -130,7 +133,8 @@ ConvertedNodes SceneConverter::convertedNodes() const
 {
     const ConvertedGraph& graph = _implementation->convertedGraph;
     return {graph.cullWatch.captured(), graph.inScene ? &*graph.inScene : nullptr,
-            graph.cuttingPlanes};
+            graph.cuttingPlanes,
+            [&graph](const osg::Geometry& geometry) { return graph.index.isLeft(geometry); }};
 }
 
 void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& changes) const
@@ -147,6 +151,7 @@ void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& chang
         changes.deformed.end());
     changes.moved.insert(changes.moved.end(), cull.moved.begin(), cull.moved.end());
     changes.deformed.insert(changes.deformed.end(), cull.deformed.begin(), cull.deformed.end());
+    changes.culled.insert(changes.culled.end(), cull.splices.begin(), cull.splices.end());
     if (cull.holds || changes.convert) return;
     changes.convert = true;
     changes.reason.cause = ConversionCause::CullTraversal;
@@ -252,6 +257,10 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     if (patcher.spliced()) result.pickIndex.reset();
     addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
     addToCount(result.counts, "converted.instance", patcher.instancesMore());
+    addToCount(result.counts, "traced.proxy", patcher.proxiesMore());
+    for (const CullSplice& splice : changes.culled)
+        for (const auto& [reason, more] : splice.countsMore)
+            addToCount(result.counts, reason, more);
     result.counts["converted.light"] =
         state.last->lights.size() - viewerLights(state.convertedGraph.lightCounts);
     result.emptyInstances = state.convertedGraph.instanceGaps.size();

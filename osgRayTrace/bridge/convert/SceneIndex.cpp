@@ -90,6 +90,15 @@ bool SceneIndex::isFollowedInCull(const osg::Geometry& geometry, bool complete) 
                                    [](const TracedUse& use) { return use.effects == kInvalid; });
 }
 
+bool SceneIndex::isLeft(const osg::Geometry& geometry) const
+{
+    const auto found = geometries.find(&geometry);
+    return found != geometries.end() &&
+           std::all_of(found->second.uses.begin(), found->second.uses.end(),
+                       [](const TracedUse& use)
+                       { return use.instance == kInvalid && use.effects == kInvalid; });
+}
+
 void SceneIndex::addUntraced(const RasterizedParts& parts,
                              const std::vector<const osg::Geometry*>& more)
 {

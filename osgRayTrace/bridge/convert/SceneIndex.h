@@ -78,6 +78,9 @@ struct SceneIndex
     /// come to the geometry later. What is traced cannot wait for that, proxies can.
     bool isFollowedInCull(const osg::Geometry& geometry, bool complete) const;
 
+    /// Returns whether OSG draws all of a geometry, and nothing of it is in the scene.
+    bool isLeft(const osg::Geometry& geometry) const;
+
     /// Adds geometry that OpenGL draws and that has no proxy: that of parts, and more. Its place is
     /// that of its path, so it may move without a conversion.
     void addUntraced(const RasterizedParts& parts, const std::vector<const osg::Geometry*>& more);

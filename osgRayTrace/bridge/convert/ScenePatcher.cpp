@@ -73,6 +73,8 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     _caches.textures.resume(_now);
     for (const GraphSplice& one : changes.splices)
         if (!splice(one)) return nullptr;
+    for (const CullSplice& one : changes.culled)
+        if (!splice(one)) return nullptr;
     takeMaterials();
     if (!moveAndDeform(changes) || !changeStates(changes.stateChanges)) return nullptr;
     if (!recut(changes.clips)) return nullptr;

@@ -40,10 +40,17 @@ public:
     /// Returns how many more geometries are converted now than before; fewer make it negative.
     int64_t geometriesMore() const { return _geometries; }
     int64_t instancesMore() const { return _instances; }
+    int64_t proxiesMore() const { return _proxies; }
 
 private:
     bool splice(const GraphSplice& splice);
     bool remove(const GraphSplice& splice);
+    bool splice(const CullSplice& splice);
+    bool removeProxy(const ChangedUse& gone);
+    bool addProxies(const CullSplice& splice);
+    ConversionCause addProxy(const CollectedGraph& graph, const CollectedGeometry& geometry);
+    void removeInstance(uint32_t index);
+    void removeMesh(uint32_t index);
     ConversionCause removeUse(TracedGeometry& traced, uint32_t use);
     bool isLastOf(uint32_t effects) const;
     bool add(const GraphSplice& splice);
@@ -77,7 +84,7 @@ private:
     std::vector<std::pair<uint32_t, Material>>
         _newMaterials; ///< instances that get other materials
     std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
-    int64_t _geometries = 0, _instances = 0;
+    int64_t _geometries = 0, _instances = 0, _proxies = 0;
     bool _changed = false;
     bool _leftStatic = false;
     bool _recolors = false; ///< a use has begun or ceased to set the current colour

@@ -63,7 +63,7 @@ ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     const TracedUse gone = traced.uses[use];
     if (gone.instance == kInvalid || gone.effects == kInvalid)
         return ConversionCause::NotAnInstance;
-    Instance& instance = _scene->instances[gone.instance];
+    const Instance& instance = _scene->instances[gone.instance];
     if (traced.uses.size() > 1 && !instance.placed) return ConversionCause::NotAnInstance;
     const StateEffects& effects = _convertedGraph.index.stateEffects[gone.effects];
     _convertedGraph.index.removeUse(traced, use);
@@ -71,19 +71,29 @@ ConversionCause ScenePatcher::removeUse(TracedGeometry& traced, uint32_t use)
     if ((effects.hasAmbient || effects.physical || effects.setsColor) && isLastOf(gone.effects))
         return ConversionCause::LastOfState;
 
+    const uint32_t mesh = instance.mesh;
+    removeInstance(gone.instance);
+    if (traced.uses.empty()) removeMesh(mesh);
+    return ConversionCause::None;
+}
+
+void ScenePatcher::removeInstance(uint32_t index)
+{
+    Instance& instance = _scene->instances[index];
     _leftStatic |= !instance.placed;
     _convertedGraph.materials.release(instance.material);
-    const uint32_t mesh = instance.mesh;
     instance = Instance();
     instance.mesh = emptyMeshIndex();
     instance.placed = true;
     instance.changed = _now;
-    _convertedGraph.instanceGaps.push_back(gone.instance);
+    _convertedGraph.instanceGaps.push_back(index);
     --_instances;
-    if (!traced.uses.empty()) return ConversionCause::None;
-    _scene->meshes[mesh] = emptyMesh();
-    _convertedGraph.meshGaps.push_back(mesh);
-    return ConversionCause::None;
+}
+
+void ScenePatcher::removeMesh(uint32_t index)
+{
+    _scene->meshes[index] = emptyMesh();
+    _convertedGraph.meshGaps.push_back(index);
 }
 
 /// Returns whether no traced use has these effects any more: the effects on the whole scene would

@@ -50,6 +50,7 @@ bool ScenePatcher::changeState(const StateChange& use, StateStack& states,
     if (!found->second.patchable || found->second.culled)
         return refuseUse(ConversionCause::NotAlone);
     if (found->second.uses.size() != use.uses) return refuseUse(ConversionCause::OtherPaths);
+    if (use.looksOnly && _convertedGraph.index.isLeft(*use.geometry)) return true;
     TracedUse& traced = found->second.uses[use.use];
     if (traced.effects == kInvalid) return refuseUse(ConversionCause::StateEffects);
 

@@ -104,6 +104,17 @@ void GraphCollector::collectCulled(osg::Node& node, CullOutcome& outcome, const 
     --_untracked;
 }
 
+bool GraphCollector::collectLeavesAt(const osg::NodePath& path, std::vector<CulledLeaf>& leaves)
+{
+    if (!descendTo(path)) return false;
+    pushOntoNodePath(path.back());
+    ++_untracked;
+    for (CulledLeaf& leaf : leaves)
+        collectLeaf(leaf);
+    --_untracked;
+    return true;
+}
+
 void GraphCollector::collectLeaf(CulledLeaf& leaf)
 {
     osg::Geometry* geometry = leaf.drawable->asGeometry();

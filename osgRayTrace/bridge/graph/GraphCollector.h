@@ -53,6 +53,10 @@ public:
     std::optional<CullOutcome> cullOutcomeAt(const osg::NodePath& path, const CullRecord& record,
                                              HookAnswers& answers);
 
+    /// Collects leaves of a cull traversal of the last node of a path, as a conversion would.
+    /// Returns false if the node cannot be placed.
+    bool collectLeavesAt(const osg::NodePath& path, std::vector<CulledLeaf>& leaves);
+
     /// Returns what was found. The caller may call this only once, after the traversal.
     CollectedGraph take();
 

@@ -114,7 +114,8 @@ bool isTraced(const osg::Drawable& drawable, const TracedLeaves& traced)
 }
 
 /// Takes out of a bin the leaves that are traced. Cameras below the parts have stages of their own,
-/// which keep theirs.
+/// which keep theirs. SceneView deletes state graphs without leaves before the bin is drawn, so the
+/// bin must not name them.
 void takeOut(osgUtil::RenderBin& bin, const std::vector<DrawnPart>& drawn)
 {
     for (osgUtil::StateGraph* graph : bin.getStateGraphList())
@@ -127,6 +128,11 @@ void takeOut(osgUtil::RenderBin& bin, const std::vector<DrawnPart>& drawn)
                                     { return isTraced(*leaf->getDrawable(), *traced); }),
                      leaves.end());
     }
+    auto& graphs = bin.getStateGraphList();
+    graphs.erase(std::remove_if(graphs.begin(), graphs.end(),
+                                [](const osgUtil::StateGraph* graph)
+                                { return graph->_leaves.empty(); }),
+                 graphs.end());
     for (const auto& [number, inner] : bin.getRenderBinList())
         takeOut(*inner, drawn);
 }
