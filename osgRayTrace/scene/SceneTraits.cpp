@@ -101,6 +101,7 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
         traits.media = true;
         traits.scattering |= around->medium.scatters();
     }
+    traits.ground = hasGround(scene.ground);
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)
