@@ -98,6 +98,7 @@ py::dict statisticsDict(const Statistics& statistics)
     OSGRAYTRACE_MEMBER(storedPhotons);
     OSGRAYTRACE_MEMBER(photonBytes);
     OSGRAYTRACE_MEMBER(hitPointBytes);
+    OSGRAYTRACE_MEMBER(autoExposure);
     OSGRAYTRACE_MEMBER(reprojectedShare);
     OSGRAYTRACE_MEMBER(reprojectSeconds);
     OSGRAYTRACE_MEMBER(photonRadius);
