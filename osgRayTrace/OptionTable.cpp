@@ -180,8 +180,9 @@ const std::vector<OptionRow>& optionTable()
                   "All rays pass faces that they meet on the culled side; else camera rays alone"),
         choiceRow("fog", kFogWords, &S::getFog, &S::setFog,
                   "What osg::Fog is: as OpenGL draws it, or a medium that the lights light"),
-        textRow("ground", "none|auto|HEIGHT", &S::getGround, &S::setGround, isGround,
-                "A plane that shows nothing but shadows on it; auto: right below the model"),
+        textRow("ground", "none|auto|1.5", &S::getGround, &S::setGround, isGround,
+                "A plane that shows nothing but shadows on it: right below the model (auto), or at "
+                "a height"),
         numberRow("point-radius", kPointRadiusRange, &S::getPointRadius, &S::setPointRadius,
                   "Radius of points and lines, traced as spheres and capsules [length]; 0: OSG "
                   "draws them"),
