@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/NeverDestroyed.h"
 #include "osgRayTrace/base/NumberText.h"
 #include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
+#include "osgRayTrace/bridge/common/GroundRequest.h"
 #include "osgRayTrace/servers/ServerAddresses.h"
 
 #include <algorithm>
@@ -140,6 +141,11 @@ bool areLightSizes(const std::string& text)
     return engine::parseLightSizes(text).has_value();
 }
 
+bool isGround(const std::string& text)
+{
+    return engine::parseGround(text).has_value();
+}
+
 bool areServers(const std::string& text)
 {
     return engine::parseServers(text).has_value();
@@ -176,6 +182,9 @@ const std::vector<OptionRow>& optionTable()
                   "All rays pass faces that they meet on the culled side; else camera rays alone"),
         choiceRow("fog", kFogWords, &S::getFog, &S::setFog,
                   "What osg::Fog is: as OpenGL draws it, or a medium that the lights light"),
+        textRow("ground", "none|auto|1.5", &S::getGround, &S::setGround, isGround,
+                "A plane that shows nothing but shadows on it: right below the model (auto), or at "
+                "a height"),
         numberRow("point-radius", kPointRadiusRange, &S::getPointRadius, &S::setPointRadius,
                   "Radius of points and lines, traced as spheres and capsules [length]; 0: OSG "
                   "draws them"),
@@ -209,6 +218,8 @@ const std::vector<OptionRow>& optionTable()
                   "Distance that the lens shows sharp [length]; 0: what is straight ahead"),
         numberRow("exposure", kExposureRange, &S::getExposure, &S::setExposure,
                   "Exposure [EV]: radiance times 2^value before display"),
+        switchRow("auto-exposure", &S::getAutoExposure, &S::setAutoExposure,
+                  "The mean of a picture is shown as middle grey; exposure adds to it"),
         choiceRow("tone-curve", kToneCurveWords, &S::getToneCurve, &S::setToneCurve,
                   "How bright radiance is shown: clamped, or by Khronos PBR Neutral or AgX"),
         choiceRow(

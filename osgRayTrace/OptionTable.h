@@ -99,6 +99,7 @@ bool isFormerName(const OptionRow& row, const std::string& name);
 std::string environmentName(const std::string& name);
 
 bool areLightSizes(const std::string& text);
+bool isGround(const std::string& text);
 bool areServers(const std::string& text);
 
 } // namespace osgRayTrace

@@ -158,6 +158,14 @@ void RayTraceSettings::setCullAllRays(bool value)
     change(_values.cullAllRays, value, _modifiedCount);
 }
 
+void RayTraceSettings::setGround(const std::string& value)
+{
+    if (!isGround(value))
+        warnOnce("ground '" + value + "' is not none, auto or a height; ignored");
+    else
+        change(_values.ground, value.empty() ? std::string("none") : value, _modifiedCount);
+}
+
 void RayTraceSettings::setFog(Fog value)
 {
     changeChoice("fog", kFogWords, _values.fog, value, _modifiedCount);
@@ -262,6 +270,11 @@ void RayTraceSettings::setFocus(float value)
 void RayTraceSettings::setExposure(float value)
 {
     changeNumber("exposure", kExposureRange, _values.exposure, value, _modifiedCount);
+}
+
+void RayTraceSettings::setAutoExposure(bool value)
+{
+    change(_values.autoExposure, value, _modifiedCount);
 }
 
 void RayTraceSettings::setToneCurve(ToneCurve value)

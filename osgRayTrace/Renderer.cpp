@@ -233,8 +233,9 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
     return withinMemory(
         [&self]
         {
-            const engine::ToneMap toneMap =
+            engine::ToneMap toneMap =
                 engine::toneMapFromSettings(*self.settings, self.traced->scene());
+            toneMap.exposureEv += self.meteredEv();
             const osg::ref_ptr<osg::Image> image = engine::newPixelImage(
                 self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;

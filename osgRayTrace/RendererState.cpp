@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace osgRayTrace
 {
@@ -118,6 +119,13 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     const engine::RenderProgress result = session->render(rule, keepGoing);
     if (result.status.code != StatusCode::InvalidView) rendered = inputs;
     engine::setImageStatistics(statistics, result);
+    statistics.autoExposure = static_cast<double>(meteredEv());
+}
+
+float Renderer::Implementation::meteredEv() const
+{
+    if (!settings->getAutoExposure() || !session) return 0.0f;
+    return session->meteredEv(std::numeric_limits<int>::max()).value_or(0.0f);
 }
 
 std::vector<unsigned char> Renderer::Implementation::packPicture()

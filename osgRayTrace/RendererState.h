@@ -92,6 +92,8 @@ struct Renderer::Implementation
     void unpackPicture(const unsigned char* bytes, std::size_t size);
     void render(engine::StopRule rule, double seconds,
                 const std::function<bool(const Statistics&)>& progress);
+    /// Returns the exposure that the mean of the image adds [EV].
+    float meteredEv() const;
     engine::PassSums checkedSums(const RenderedInputs& inputs);
     std::string pictureName() const;
     PassSums passSums() const;

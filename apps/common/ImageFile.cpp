@@ -60,8 +60,9 @@ void writePng(const std::string& file, const osg::Image& rgb)
     png.version = PNG_IMAGE_VERSION;
     png.width = static_cast<png_uint_32>(rgb.s());
     png.height = static_cast<png_uint_32>(rgb.t());
-    png.format = PNG_FORMAT_RGB;
-    const png_int_32 fromTheTop = -3 * rgb.s();
+    const bool alpha = rgb.getPixelFormat() == GL_RGBA;
+    png.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+    const png_int_32 fromTheTop = (alpha ? -4 : -3) * rgb.s();
     errno = 0;
     if (png_image_write_to_file(&png, file.c_str(), 0, rgb.data(), fromTheTop, nullptr) == 0)
         throw std::runtime_error(errno ? std::strerror(errno) : png.message);
@@ -155,7 +156,7 @@ std::string whyNotInFormat(const std::string& extension, int width, int height)
     return "a ." + extension + " is at most " + std::to_string(largest) + " pixels wide and high";
 }
 
-void writeImageFile(const std::string& path, const osg::Image& image)
+void writeImageFile(const std::string& path, const osg::Image& image, bool keepsAlpha)
 {
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     writeOutput(path,
@@ -164,7 +165,8 @@ void writeImageFile(const std::string& path, const osg::Image& image)
                     const std::string problem = whyNotInFormat(extension, image.s(), image.t());
                     if (!problem.empty()) throw std::runtime_error(problem);
                     if (isJpeg(extension)) return writeJpeg(file, *withoutAlpha(image));
-                    if (extension == "png") return writePng(file, *withoutAlpha(image));
+                    if (extension == "png")
+                        return writePng(file, keepsAlpha ? image : *withoutAlpha(image));
                     writeByPlugin(file, image, extension);
                 });
 }

@@ -71,6 +71,7 @@ void checkParts(const Options& options)
         exclude(part, "--frames", options.frames.has_value());
         exclude(part, "--context", options.context != Context::None);
     }
+    exclude("--mpi", "--auto-exposure", options.mpi && options.settings->getAutoExposure());
     if (!options.checkpoint.empty() && formatOf(options.checkpoint) != Format::Exr)
         throw Failure(kUsage, "--checkpoint " + options.checkpoint + ": the name ends in .exr");
     exclude("--send-scene", "--shutter", options.sendsScene && options.shutter > 0.0);
@@ -89,6 +90,7 @@ void checkParts(const Options& options)
     exclude("--merge", "--context", options.context != Context::None);
     exclude("--merge", "--names", options.names);
     exclude("--merge", "--crop", options.crop.has_value());
+    exclude("--merge", "--background", options.backdrop.wanted);
     exclude("--merge", "lights", options.lights.any() || options.lights.headlight.has_value());
     for (const auto& [name, value] : options.assignments)
         exclude("--merge", ("--" + name).c_str(), name != "exposure" && name != "tone-curve");

@@ -40,6 +40,7 @@ struct RawOptions
     RawMotion motion;
     std::vector<double> sun;
     std::string headlight;
+    std::string background;
 };
 
 std::string commaSeparated(std::string range)
@@ -135,6 +136,11 @@ void addLightOptions(CLI::App& app, Options& options, RawOptions& raw)
                    "--sun is given")
         ->option_text("on|off")
         ->check(oneOf("on|off"));
+    app.add_option(
+           "--background", raw.background,
+           "Stands behind .png, .jpg and video in place of the clear colour: an image, a "
+           "colour or two, each #rrggbb, black, white or gray; transparent: .png with alpha")
+        ->option_text("FILE|COLOR[:COLOR]");
 }
 
 void addOptions(CLI::App& app, Options& options, RawOptions& raw)
@@ -275,6 +281,7 @@ void applyRaw(const CLI::App& app, const RawOptions& raw, Options& options)
         options.lights.sun = SceneLights::Sun{raw.sun[0], raw.sun[1]};
     }
     if (!raw.headlight.empty()) options.lights.headlight = raw.headlight == "on";
+    options.backdrop = readBackdrop(raw.background);
     if (raw.context == "osmesa") options.context = Context::OsMesa;
     if (raw.context == "egl") options.context = Context::Egl;
 }

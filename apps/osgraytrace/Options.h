@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Frames.h"
+#include "apps/common/Backdrop.h"
 #include "apps/common/ViewText.h"
 
 #include <osgRayTrace/RayTraceSettings>
@@ -52,6 +53,7 @@ struct Options
     double shutter = 0.0; ///< time that the shutter is open [s]; 0: pictures are of a moment
 
     SceneLights lights; ///< beside those of the models
+    Backdrop backdrop;  ///< behind the picture, in place of the clear colour
 
     double at = 0.0;                  ///< time that the scene is shown at [s]
     double afterFrame = 0.0;          ///< how much later that is than the frame's own time [s]

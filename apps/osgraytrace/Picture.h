@@ -22,6 +22,7 @@ struct Picture
 {
     osg::ref_ptr<osg::Image> radiance; ///< linear, GL_RGBA, GL_FLOAT
     osg::ref_ptr<osg::Image> display;  ///< tone mapped, GL_RGBA, GL_UNSIGNED_BYTE
+    osg::ref_ptr<osg::Image> straight; ///< display with alpha, for .png; null: none is wanted
     std::map<std::string, osg::ref_ptr<osg::Image>> channels; ///< channels that the options ask for
     std::map<std::string, std::string> texts;                 ///< attributes of EXR files
     Statistics statistics;

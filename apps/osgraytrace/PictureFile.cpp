@@ -6,6 +6,8 @@
 #include "apps/common/Output.h"
 #include "osgPlugins/exr/ExrImage.h"
 
+#include <osgDB/FileNameUtils>
+
 namespace osgRayTrace::app
 {
 
@@ -63,7 +65,8 @@ void writePicture(const std::string& path, const Picture& picture)
         if (!problem.empty()) throw cannotWrite(path, problem);
         return;
     }
-    writeImageFile(path, *picture.display);
+    const bool keepsAlpha = picture.straight && osgDB::getLowerCaseFileExtension(path) == "png";
+    writeImageFile(path, keepsAlpha ? *picture.straight : *picture.display, keepsAlpha);
 }
 
 } // namespace osgRayTrace::app

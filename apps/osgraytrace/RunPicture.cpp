@@ -32,6 +32,18 @@ std::string missingParts(const Options& options, const Statistics& statistics)
                          : "left out without OpenGL: " + parts + "; --context egl draws them";
 }
 
+/// Puts the backdrop of the options behind a picture.
+void placeBackdrop(const Options& options, const osg::Vec4& clearColor, Picture& picture)
+{
+    if (!options.backdrop.wanted) return;
+    const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
+    if (options.backdrop.transparent)
+        picture.straight = new osg::Image(*picture.display, osg::CopyOp::DEEP_COPY_ALL);
+    putBehind(options.backdrop, *picture.radiance, clearColor,
+              {whole.left, whole.top, whole.fullWidth, whole.fullHeight},
+              picture.straight ? *picture.straight : *picture.display);
+}
+
 void printMeasures(const ErrorMeasures& measures)
 {
     std::printf("RMSE %.6g\nrelMSE %.6g\nmean ratio %.6g\n", measures.rmse, measures.relMse,
@@ -114,6 +126,7 @@ Picture render(const Options& options, TimedScene& shown, Group* group)
                       : options.context == Context::None
                           ? renderWithoutContext(options, shown, camera, progress)
                           : renderInContext(options, scene, camera, progress);
+    placeBackdrop(options, camera.clearColor, picture);
     picture.texts = pictureTexts(options, whole, picture.statistics);
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     const bool drawnByOsg =

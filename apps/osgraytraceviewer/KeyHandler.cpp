@@ -3,6 +3,7 @@
 #include "KeyHandler.h"
 
 #include "FreeName.h"
+#include "SettingSteps.h"
 #include "ShownPlacement.h"
 
 #include "apps/common/DrawnParts.h"
@@ -24,23 +25,6 @@ namespace osgRayTrace::app
 
 namespace
 {
-
-constexpr float kExposureStep = 0.5f; ///< [EV]
-
-/// Sets an option of the settings to the next of its words: "auto|whitted|path".
-void cycle(RayTraceSettings& settings, const std::string& name)
-{
-    for (const RayTraceSettings::Option& option : RayTraceSettings::options())
-    {
-        if (option.name != name) continue;
-        const std::string words = option.range + "|";
-        const std::size_t current = ("|" + words).find("|" + settings.get(name) + "|");
-        std::size_t next = current == std::string::npos ? 0 : words.find('|', current) + 1;
-        if (next == words.size()) next = 0;
-        settings.set(name, words.substr(next, words.find('|', next) - next));
-        return;
-    }
-}
 
 int lowerCase(int key)
 {
@@ -70,20 +54,26 @@ bool KeyHandler::press(const osgGA::GUIEventAdapter& event, osgViewer::View* vie
     switch (event.getKey())
     {
     case 'i':
-        cycle(settings, "integrator");
+        stepSetting(settings, "integrator", true);
         return true;
     case 'n':
-        cycle(settings, "light-sampling");
+        stepSetting(settings, "light-sampling", true);
         return true;
     case 'T':
-        cycle(settings, "tone-curve");
+        stepSetting(settings, "tone-curve", true);
         return true;
     case '+':
     case '=':
-        settings.setExposure(settings.getExposure() + kExposureStep);
+        stepSetting(settings, "exposure", true);
         return true;
     case '-':
-        settings.setExposure(settings.getExposure() - kExposureStep);
+        stepSetting(settings, "exposure", false);
+        return true;
+    case 'x':
+        stepSetting(settings, "auto-exposure", true);
+        return true;
+    case 'g':
+        stepSetting(settings, "ground", true);
         return true;
     case 'F':
         freeze(view);
@@ -209,6 +199,8 @@ void KeyHandler::getUsage(osg::ApplicationUsage& usage) const
     usage.addKeyboardMouseBinding("T", "Next tone curve");
     usage.addKeyboardMouseBinding("+", "Exposure half a stop up");
     usage.addKeyboardMouseBinding("-", "Exposure half a stop down");
+    usage.addKeyboardMouseBinding("x", "Exposure by the mean of the picture, or as it is set");
+    usage.addKeyboardMouseBinding("g", "Ground that shows shadows below the model, or none");
     usage.addKeyboardMouseBinding("p", "Pause and continue ray tracing");
     usage.addKeyboardMouseBinding("F",
                                   "Freeze the view, so that its image converges, and let it go");

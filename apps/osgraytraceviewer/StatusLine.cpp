@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "StatusLine.h"
 
-#include "apps/common/ErrorText.h"
+#include "Overlay.h"
 
-#include <osg/Geode>
+#include "apps/common/ErrorText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,42 +16,7 @@ namespace osgRayTrace::app
 namespace
 {
 
-constexpr double kMargin = 10.0;        // pixels
-constexpr float kCharacterSize = 18.0f; // pixels
-constexpr float kPlateMargin = 5.0f;    // pixels
-
-osg::ref_ptr<osgText::Text> createText()
-{
-    osg::ref_ptr<osgText::Text> text = new osgText::Text;
-    text->setDataVariance(osg::Object::DYNAMIC);
-    text->setCharacterSize(kCharacterSize);
-    text->setPosition(osg::Vec3(kMargin, kMargin, 0.0f));
-    // The plate is dark: outlines would close over decimal points.
-    text->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
-    text->setBoundingBoxColor(osg::Vec4(0.0f, 0.0f, 0.0f, 0.75f));
-    text->setBoundingBoxMargin(kPlateMargin);
-    return text;
-}
-
-/// Returns a camera that draws over everything, in pixels, and is no part of the scene's depth
-/// range.
-osg::ref_ptr<osg::Camera> createOverlay(osg::Drawable* drawable)
-{
-    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    camera->setRenderOrder(osg::Camera::POST_RENDER);
-    camera->setClearMask(0);
-    camera->setAllowEventFocus(false);
-    camera->setProjectionMatrixAsOrtho2D(0.0, 1280.0, 0.0, 1024.0);
-    osg::StateSet* stateSet = camera->getOrCreateStateSet();
-    const auto off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
-    stateSet->setMode(GL_LIGHTING, off);
-    stateSet->setMode(GL_DEPTH_TEST, off);
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(drawable);
-    camera->addChild(geode.get());
-    return camera;
-}
+constexpr double kCharacterWidth = 0.66 * double(kOverlayCharacter); ///< of osgText's own font
 
 template <class... Values> std::string format(const char* pattern, Values... values)
 {
@@ -63,24 +28,41 @@ template <class... Values> std::string format(const char* pattern, Values... val
 } // namespace
 
 StatusLine::StatusLine(RayTracedScene* scene, const KeyHandler* keys)
-    : _scene(scene), _keys(keys), _text(createText())
+    : _scene(scene), _keys(keys), _text(newOverlayText())
 {
-    _camera = createOverlay(_text.get());
+    _text->setAlignment(osgText::Text::LEFT_BOTTOM_BASE_LINE);
+    _camera = newOverlay(_text.get());
 }
 
-bool StatusLine::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&)
+bool StatusLine::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action)
 {
-    if (event.getEventType() == osgGA::GUIEventAdapter::RESIZE)
-    {
-        _camera->setProjectionMatrixAsOrtho2D(0.0, event.getWindowWidth(), 0.0,
-                                              event.getWindowHeight());
-        return false;
-    }
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME) return false;
-    const std::string text = statusText(*_scene, _keys->isFrozen());
+    fitOverlay(*_camera, action, 0.0);
+    const auto* view = dynamic_cast<osgViewer::View*>(&action);
+    const osg::Viewport* viewport = view ? view->getCamera()->getViewport() : nullptr;
+    const double width = viewport ? viewport->width() - 2.0 * double(kOverlayMargin) : HUGE_VAL;
+    const std::string text =
+        wrapped(statusText(*_scene, _keys->isFrozen()), width / kCharacterWidth);
     if (text != _shown) _text->setText(text);
     _shown = text;
     return false;
+}
+
+std::string wrapped(const std::string& text, double columns)
+{
+    const std::string gap = "   ";
+    std::string lines, line;
+    for (std::size_t begin = 0; begin <= text.size();)
+    {
+        const std::size_t end = std::min(text.find(gap, begin), text.size());
+        const std::string part = text.substr(begin, end - begin);
+        const std::string longer = line.empty() ? part : line + gap + part;
+        const bool fits = static_cast<double>(longer.size()) <= columns;
+        if (!fits && !line.empty()) lines += line + '\n';
+        line = fits || line.empty() ? longer : part;
+        begin = end + gap.size();
+    }
+    return lines + line;
 }
 
 std::string statusText(const RayTracedScene& scene, bool frozen)
@@ -97,13 +79,18 @@ std::string statusText(const RayTracedScene& scene, bool frozen)
     const double rays = static_cast<double>(statistics.cameraRays + statistics.shadowRays +
                                             statistics.secondaryRays + statistics.photonRays);
     if (statistics.renderSeconds > 0.0)
-        text += format("   %.1f M rays/s", 1e-6 * rays / statistics.renderSeconds);
+        text +=
+            format("   %.1f passes/s, %.1f M rays/s", statistics.passes / statistics.renderSeconds,
+                   1e-6 * rays / statistics.renderSeconds);
     if (std::isfinite(statistics.relativeError))
         text += "   error " + errorText(statistics.relativeError) + ", median " +
                 errorText(statistics.medianError);
     if (statistics.resolutionDivider > 1)
         text += format("   1/%d resolution", statistics.resolutionDivider);
-    if (settings.getExposure() != 0.0f)
+    if (settings.getAutoExposure())
+        text += format("   exposure %+.1f EV, automatic",
+                       double(settings.getExposure()) + statistics.autoExposure);
+    else if (settings.getExposure() != 0.0f)
         text += format("   exposure %+g EV", double(settings.getExposure()));
     if (settings.getToneCurve() != RayTraceSettings::SRGB)
         text += "   " + settings.get("tone-curve") + " tones";

@@ -40,4 +40,8 @@ private:
 /// there is no picture, it returns why.
 std::string statusText(const RayTracedScene& scene, bool frozen);
 
+/// Returns the text with line ends in place of some of its gaps of three blanks, so that lines have
+/// no more columns if they can.
+std::string wrapped(const std::string& text, double columns);
+
 } // namespace osgRayTrace::app

@@ -92,6 +92,9 @@ void describeView(osg::ApplicationUsage& usage)
         "Directional light: clockwise from +y, and above the horizon [degrees]");
     usage.addCommandLineOption("--headlight <on|off>",
                                "Light at the eye; on, unless a light is added");
+    usage.addCommandLineOption("--background <FILE|COLOR[:COLOR]>",
+                               "Stands behind the models: an image, a colour or two, each #rrggbb, "
+                               "black, white or gray");
     usage.addCommandLineOption("-p <FILE.path>", "Plays a camera path that key z has recorded");
 }
 
@@ -105,6 +108,9 @@ ViewerOptions readViewerOptions(osg::ArgumentParser& arguments)
     options.view.up = readVector(arguments, "--up");
     options.view.fovyDegrees = readPositive(arguments, "--fovy", 180.0);
     options.view.height = readPositive(arguments, "--parallel", HUGE_VAL);
+    std::string backdrop;
+    if (arguments.read("--background", backdrop)) options.backdrop = readBackdrop(backdrop);
+    if (options.backdrop.transparent) throw Failure(kUsage, "--background: a window is opaque");
     std::string path;
     if (!arguments.read("-p", path)) return options;
     options.path = readCameraPath(path);

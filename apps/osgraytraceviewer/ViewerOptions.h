@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "apps/common/Backdrop.h"
 #include "apps/common/ViewText.h"
 
 #include <osgRayTrace/SceneLights>
@@ -21,6 +22,7 @@ struct ViewerOptions
     ViewOptions view;
     osg::ref_ptr<osg::AnimationPath> path; ///< null: none is played
     SceneLights lights;
+    Backdrop backdrop; ///< behind the models, in place of the clear colour
 };
 
 void describeView(osg::ApplicationUsage& usage);

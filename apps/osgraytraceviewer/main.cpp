@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "CaveViewer.h"
 #include "KeyHandler.h"
+#include "ReadableHelp.h"
+#include "SettingsPanel.h"
 #include "SignalledViewer.h"
 #include "StatusLine.h"
 #include "ViewerOptions.h"
@@ -87,11 +89,52 @@ std::vector<std::string> modelNames(osg::ArgumentParser& arguments)
     return names;
 }
 
-void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* statusLine,
-                 osg::ApplicationUsage* usage)
+/// What is shown over the picture and reacts to keys and the mouse.
+struct Handlers
 {
-    viewer.addEventHandler(keys);
-    viewer.addEventHandler(statusLine);
+    explicit Handlers(RayTracedScene* scene)
+        : keys(new KeyHandler(scene)),
+          statusLine(new StatusLine(scene, keys.get())),
+          panel(new SettingsPanel(scene))
+    {
+    }
+
+    osg::ref_ptr<KeyHandler> keys;
+    osg::ref_ptr<StatusLine> statusLine;
+    osg::ref_ptr<SettingsPanel> panel;
+};
+
+/// Keeps the backdrop's image in proportion as the window changes its size.
+class BackdropHandler : public osgGA::GUIEventHandler
+{
+public:
+    BackdropHandler(osg::Camera* camera, Backdrop backdrop)
+        : _camera(camera), _backdrop(std::move(backdrop))
+    {
+    }
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override
+    {
+        const auto* view = dynamic_cast<osgViewer::View*>(&action);
+        const osg::Viewport* viewport = view ? view->getCamera()->getViewport() : nullptr;
+        if (event.getEventType() != osgGA::GUIEventAdapter::FRAME || !viewport) return false;
+        const double aspect = viewport->aspectRatio();
+        if (aspect > 0.0 && aspect != _aspect) fitBackdrop(*_camera, _backdrop, aspect);
+        _aspect = aspect;
+        return false;
+    }
+
+private:
+    osg::ref_ptr<osg::Camera> _camera;
+    Backdrop _backdrop;
+    double _aspect = 0.0;
+};
+
+void addHandlers(osgViewer::Viewer& viewer, const Handlers& handlers, osg::ApplicationUsage* usage)
+{
+    viewer.addEventHandler(handlers.panel.get()); // takes arrows while it is open
+    viewer.addEventHandler(handlers.keys.get());
+    viewer.addEventHandler(handlers.statusLine.get());
     viewer.addEventHandler(
         new osgGA::StateSetManipulator(viewer.getCamera()->getOrCreateStateSet()));
     viewer.addEventHandler(new osgViewer::ThreadingHandler);
@@ -99,7 +142,7 @@ void addHandlers(osgViewer::Viewer& viewer, KeyHandler* keys, StatusLine* status
     viewer.addEventHandler(new osgViewer::StatsHandler);
     viewer.addEventHandler(new osgViewer::LODScaleHandler);
     viewer.addEventHandler(new osgViewer::RecordCameraPathHandler);
-    viewer.addEventHandler(new osgViewer::HelpHandler(usage));
+    viewer.addEventHandler(new ReadableHelp(usage));
 }
 
 /// Returns the title of the window: "cow.osgt, glider.osgt".
@@ -153,16 +196,22 @@ int show(osgViewer::Viewer& viewer, const Models& models, const std::string& tit
     const auto& [root, scene] = models;
     const std::string problem = options.lights.addTo(*scene);
     if (!problem.empty()) throw Failure(kCannotLoad, problem);
-    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene.get());
-    osg::ref_ptr<StatusLine> statusLine = new StatusLine(scene.get(), keys.get());
-    root->addChild(statusLine->camera());
+    const Handlers handlers(scene.get());
+    root->addChild(handlers.statusLine->camera());
+    root->addChild(handlers.panel->camera());
+    if (options.backdrop.wanted)
+    {
+        const osg::ref_ptr<osg::Camera> behind = backdropCamera(options.backdrop, 1280.0 / 1024.0);
+        root->addChild(behind);
+        viewer.addEventHandler(new BackdropHandler(behind, options.backdrop));
+    }
 
     viewer.setSceneData(root.get());
     addManipulators(viewer, options);
     if (const auto color = storedClearColor(*root)) viewer.getCamera()->setClearColor(*color);
     showView(viewer, *root, options);
-    viewer.getCamera()->addFinalDrawCallback(keys->windowPicture());
-    addHandlers(viewer, keys.get(), statusLine.get(), usage);
+    viewer.getCamera()->addFinalDrawCallback(handlers.keys->windowPicture());
+    addHandlers(viewer, handlers, usage);
     viewer.realize();
     osgViewer::Viewer::Windows windows;
     viewer.getWindows(windows);
@@ -192,9 +241,8 @@ int run(int argc, char** argv)
     if (help)
     {
         osg::ref_ptr<RayTracedScene> none = new RayTracedScene;
-        const osg::ref_ptr<KeyHandler> keys = new KeyHandler(none.get());
         addManipulators(viewer, view);
-        addHandlers(viewer, keys.get(), new StatusLine(none.get(), keys.get()), &usage);
+        addHandlers(viewer, Handlers(none.get()), &usage);
         viewer.getUsage(usage);
         usage.write(std::cout, osg::ApplicationUsage::COMMAND_LINE_OPTION |
                                    osg::ApplicationUsage::KEYBOARD_MOUSE_BINDING);

@@ -62,13 +62,16 @@ void useCamera(Rendering& rendering, const std::string& name)
                           (names.empty() ? "none" : names));
 }
 
-py::dict render(Rendering& rendering, double seconds, double error, const py::object& progress)
+py::dict render(Rendering& rendering, double seconds, double error, const py::object& progress,
+                const py::object& shutter)
 {
     if (!(seconds >= 0.0)) throw py::value_error("seconds is not a number from 0 on");
     if (!(error >= 0.0)) throw py::value_error("error is not a number from 0 on");
     if (!progress.is_none() && !PyCallable_Check(progress.ptr()))
         throw py::type_error("progress is neither a function nor None");
-    return statisticsDict(rendering.render(seconds, error, progress));
+    if (!shutter.is_none() && !PyCallable_Check(shutter.ptr()))
+        throw py::type_error("shutter is neither a function nor None");
+    return statisticsDict(rendering.render(seconds, error, progress, shutter));
 }
 
 /// Returns the array of an image that get() makes. Throws RenderFailure before the first render.
@@ -204,12 +207,20 @@ void bindRenderer(py::module_& module)
              "integrator=\"path\".\n"
              "The view is the one that osgviewer opens with, or the one that the model asks for.")
         .def("render", &render, py::arg("seconds") = 0.0, py::arg("error") = 0.0,
-             py::arg("progress") = py::none(),
+             py::arg("progress") = py::none(), py::arg("shutter") = py::none(),
              "Renders until max-passes (64 unless it is set, or one of the others is given), for\n"
              "seconds, or to an estimated relative error; returns the statistics. A second render "
              "of\n"
              "the same view adds to the first. progress is called between passes with the\n"
-             "statistics and ends the render by returning False. Raises RenderError.")
+             "statistics and ends the render by returning False. shutter opens a shutter, for "
+             "motion\n"
+             "blur: it is called before each pass with the moment of the pass, in [0, 1) of the "
+             "time\n"
+             "that the shutter is open, and places the camera there, by look_at() or "
+             "set_matrices().\n"
+             "The first and the last moment come once more before the passes. Every such render "
+             "begins\n"
+             "a new picture, and leaves the view as it was. Raises RenderError.")
         .def("cancel", &Rendering::cancel, "Stops a render() of another thread within a tile.")
         .def_property_readonly(
             "statistics",

@@ -55,7 +55,8 @@ Rendering::Rendering(ScenePointer scene, int width, int height)
     if (_scene->placement()) _view = *_scene->placement();
 }
 
-Statistics Rendering::render(double seconds, double relativeError, const py::object& progress)
+Statistics Rendering::render(double seconds, double relativeError, const py::object& progress,
+                             const py::object& shutter)
 {
     std::exception_ptr raised; // Renderer would make a message of it
     auto asked = std::chrono::steady_clock::now();
@@ -63,7 +64,7 @@ Statistics Rendering::render(double seconds, double relativeError, const py::obj
     {
         // Other threads of Python keep its lock for milliseconds: it is not taken for each pass.
         const auto now = std::chrono::steady_clock::now();
-        if (OutsidePython::isEnding()) return false;
+        if (raised || OutsidePython::isEnding()) return false;
         if (progress.is_none() && now - asked < kSignalInterval) return true;
         asked = now;
         const py::gil_scoped_acquire inside;
@@ -77,6 +78,21 @@ Statistics Rendering::render(double seconds, double relativeError, const py::obj
             return false;
         }
     };
+    const auto pose = [&](double moment)
+    {
+        if (raised || OutsidePython::isEnding()) return;
+        try
+        {
+            const py::gil_scoped_acquire inside;
+            shutter(moment);
+        }
+        catch (...)
+        {
+            raised = std::current_exception();
+            _renderer->cancel();
+        }
+        placeView();
+    };
     const Statistics statistics = alone(
         [&](Renderer& renderer)
         {
@@ -85,7 +101,11 @@ Statistics Rendering::render(double seconds, double relativeError, const py::obj
             limitPasses(seconds > 0.0 || relativeError > 0.0);
             placeView();
             const StoppableRender stoppable(renderer);
+            const auto view = _view;
+            if (!shutter.is_none()) renderer.setShutter(pose);
             renderer.render(seconds, relativeError, betweenPasses);
+            renderer.setShutter({});
+            _view = view;
             return renderer.getStatistics();
         });
     if (raised) std::rethrow_exception(raised);

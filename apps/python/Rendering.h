@@ -49,8 +49,11 @@ public:
     }
 
     /// Renders, and returns the statistics. progress: called with the statistics as a dictionary,
-    /// or None. Throws RenderFailure, and whatever progress throws.
-    Statistics render(double seconds, double relativeError, const pybind11::object& progress);
+    /// or None. shutter: called before each pass with its moment in [0, 1) to set the view of the
+    /// pass, or None; the view is afterwards what it was. Throws RenderFailure, and whatever these
+    /// functions throw.
+    Statistics render(double seconds, double relativeError, const pybind11::object& progress,
+                      const pybind11::object& shutter);
     void cancel() { _renderer->cancel(); }
 
     /// Sets the view of the next render.

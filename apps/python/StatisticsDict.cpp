@@ -101,6 +101,7 @@ py::dict statisticsDict(const Statistics& statistics)
     OSGRAYTRACE_MEMBER(beamRadius);
     OSGRAYTRACE_MEMBER(photonBytes);
     OSGRAYTRACE_MEMBER(hitPointBytes);
+    OSGRAYTRACE_MEMBER(autoExposure);
     OSGRAYTRACE_MEMBER(reprojectedShare);
     OSGRAYTRACE_MEMBER(reprojectSeconds);
     OSGRAYTRACE_MEMBER(photonRadius);

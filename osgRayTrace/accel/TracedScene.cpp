@@ -62,6 +62,7 @@ struct TracedScene::Implementation
     std::shared_ptr<const MaterialPart> materials;
     std::unique_ptr<LightTable> lights;
     MediumTable media;
+    float groundSky = 0.0f;
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
@@ -278,7 +279,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old, const Wo
                     sameParts(scene->materials, old->scene->materials, stamp);
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp) &&
-        scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse;
+        scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse &&
+        scene->ground == old->scene->ground;
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr,
                                           &materials->table, &workers);
@@ -341,6 +343,8 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
     const Box box = boundsOf(top);
+    if (built.traits.ground && built.lights->shiningEnvironment())
+        built.groundSky = irradianceOf(*built.lights->shiningEnvironment(), Vec3(0.0f, 0.0f, 1.0f));
     if (built.traits.media) built.media = MediumTable(*built.scene, box.low, box.high);
 
     BuildStatistics& statistics = built.statistics;
@@ -378,6 +382,11 @@ const LightTable& TracedScene::lights() const
 {
     return *_implementation->lights;
 }
+float TracedScene::groundSky() const
+{
+    return _implementation->groundSky;
+}
+
 const MediumTable& TracedScene::media() const
 {
     return _implementation->media;

@@ -54,6 +54,9 @@ public:
     const LightTable& lights() const;
     /// Returns the media that rays travel through; empty without SceneTraits::media.
     const MediumTable& media() const;
+    /// Returns the irradiance of the ground by the environment, with nothing in its way, as a
+    /// luminance [W/m^2]; 0 without SceneTraits::ground.
+    float groundSky() const;
     /// Returns the tangents that were made for the mesh of an instance by the texture coordinates
     /// of a set; null if its material needs none, or if it has tangents of its own, no
     /// normals or no coordinates.

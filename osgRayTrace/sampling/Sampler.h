@@ -23,6 +23,7 @@ enum Dimension : uint32_t
     DimensionDiscEdge = 0x40000000, ///< of a pixel
     DimensionLens = 0x40000001,     ///< of a pixel
     DimensionMoment = 0x40000002,   ///< of a pass
+    DimensionGround = 0x40000003,   ///< of a ray from the eye; and the next two
 };
 constexpr uint32_t kDimensionsPerBounce = 4;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/scene/Ground.h"
 #include "osgRayTrace/scene/Light.h"
 #include "osgRayTrace/scene/Material.h"
 #include "osgRayTrace/scene/Medium.h"
@@ -28,6 +29,7 @@ struct Scene
     std::vector<Light> lights;
     std::shared_ptr<const Atmosphere> atmosphere; ///< null: see atmosphereOf
     FogUse fogUse = FogUse::Depth;
+    float ground = kNoGround; ///< height of the plane that shows shadows alone [engine units]
 
     Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
     Vec4 background{0.0f}; ///< RGBA that rays see which leave the scene; not a light

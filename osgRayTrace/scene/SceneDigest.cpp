@@ -174,7 +174,7 @@ uint64_t sceneDigest(const Scene& scene)
         addTexture(*texture, hasher);
     for (const Light& light : scene.lights)
         addLight(light, hasher);
-    hasher.add(scene.fogUse, scene.atmosphere != nullptr);
+    hasher.add(scene.fogUse, scene.ground, scene.atmosphere != nullptr);
     if (scene.atmosphere)
     {
         addMedium(scene.atmosphere->medium, hasher);

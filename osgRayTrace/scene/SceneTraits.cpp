@@ -103,6 +103,7 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
         traits.scattering |= around->medium.scatters();
         traits.glowing |= around->medium.emits();
     }
+    traits.ground = hasGround(scene.ground);
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)

@@ -148,7 +148,7 @@ template <class Archive> void fieldsOf(Archive& a, Light& l)
 /// The members of a scene but its parts.
 template <class Archive> void fieldsOf(Archive& a, Scene& s)
 {
-    a(s.origin, s.unit, s.ambient, s.background, s.displayReferred, s.fogUse, s.changed);
+    a(s.origin, s.unit, s.ambient, s.background, s.displayReferred, s.fogUse, s.ground, s.changed);
     bool hasAtmosphere = s.atmosphere != nullptr;
     a(hasAtmosphere);
     Atmosphere around = s.atmosphere ? *s.atmosphere : Atmosphere();

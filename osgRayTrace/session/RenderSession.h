@@ -108,6 +108,9 @@ public:
     /// Returns the error of the image as it is, worked out now.
     ErrorEstimate estimateError() const;
 
+    /// Returns the exposure that the mean of the image asks for [EV]; see meteredEv.
+    std::optional<float> meteredEv(int mostTiles) const;
+
     /// Lets go of the scene and of the image; memory for images is kept.
     void clear();
 

@@ -1,5 +1,6 @@
 // RenderSessionImages.cpp - a session's image as others want it: pixels, channels. Layer: session.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/film/ExposureMeter.h"
 #include "osgRayTrace/session/RenderSession.h"
 
 #include "osgRayTrace/base/NeverDestroyed.h"
@@ -65,6 +66,12 @@ void SessionState::resolveTile(const DisplayTarget& display, int tile) const
 ErrorEstimate RenderSession::estimateError() const
 {
     return _state->estimateError();
+}
+
+std::optional<float> RenderSession::meteredEv(int mostTiles) const
+{
+    const bool displayReferred = _state->filmScene && _state->filmScene->scene().displayReferred;
+    return engine::meteredEv(_state->film, displayReferred, mostTiles);
 }
 
 std::vector<float> RenderSession::resolveRadiance() const

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 
+#include "osgRayTrace/sampling/Sobol.h"
+
 namespace osgRayTrace::engine
 {
 
@@ -41,6 +43,22 @@ std::vector<EnvironmentStratum> PlacedEnvironment::strata(int count) const
         stratum.integral *= _scale;
     }
     return strata;
+}
+
+float irradianceOf(const PlacedEnvironment& environment, Vec3 normal)
+{
+    constexpr uint32_t kSamples = 8192;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < kSamples; ++i)
+    {
+        float u, v;
+        sobol2(i, 0x9e3779b9u, u, v);
+        const EnvironmentSample sample = environment.sample(u, v);
+        const float cosine = glm::dot(sample.direction, normal);
+        if (sample.pdfW > 0.0f && cosine > 0.0f)
+            sum += double(luminance(sample.radiance)) * double(cosine / sample.pdfW);
+    }
+    return static_cast<float>(sum / kSamples);
 }
 
 } // namespace osgRayTrace::engine

@@ -72,4 +72,8 @@ private:
     Vec3 _scale;
 };
 
+/// Returns the irradiance of a surface by the environment, as a luminance [W/m^2], to some 0.1 %.
+/// normal: unit, engine space.
+float irradianceOf(const PlacedEnvironment& environment, Vec3 normal);
+
 } // namespace osgRayTrace::engine

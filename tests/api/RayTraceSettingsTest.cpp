@@ -170,6 +170,25 @@ TEST_CASE("settings: sizes of single lights are checked", "[api][settings]")
     CHECK(settings->getLightSizes() == "none");
 }
 
+TEST_CASE("settings: a ground is none, below the model, or at a height", "[api][settings]")
+{
+    const auto settings = make();
+    for (const char* good : {"auto", "none", "-1.5", "0", "1e3"})
+    {
+        CHECK(settings->set("ground", good));
+        CHECK(settings->getGround() == good);
+    }
+    for (const char* bad : {"Auto", "nan", "inf", "1 2", "low"})
+    {
+        INFO(bad);
+        CHECK_FALSE(settings->set("ground", bad));
+        settings->setGround(bad);
+        CHECK(settings->getGround() == "1e3");
+    }
+    settings->setGround("");
+    CHECK(settings->getGround() == "none");
+}
+
 TEST_CASE("settings: names may be written in several ways", "[api][settings]")
 {
     const auto settings = make();

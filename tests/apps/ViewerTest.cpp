@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/common/ErrorText.h"
 #include "apps/osgraytraceviewer/KeyHandler.h"
+#include "apps/osgraytraceviewer/SettingsPanel.h"
 #include "apps/osgraytraceviewer/StatusLine.h"
 #include "apps/osgraytraceviewer/ViewerOptions.h"
 #include "tests/Catch.h"
@@ -241,6 +242,14 @@ TEST_CASE("viewer: the status line says how far the picture is, and what is not 
     CHECK(statusText(*scene, false) == "rasterizer");
 }
 
+TEST_CASE("viewer: the status line becomes lines where a window is narrow", "[apps]")
+{
+    CHECK(wrapped("a b   c   d", 99.0) == "a b   c   d");
+    CHECK(wrapped("a b   c   d", 8.0) == "a b   c\nd");
+    CHECK(wrapped("a b   c   d", 1.0) == "a b\nc\nd");
+    CHECK(wrapped("", 5.0).empty());
+}
+
 TEST_CASE("viewer: decimal points of the status line can be seen", "[apps][gl]")
 {
     // The picture is the line alone, with an error of one digit: the test counts pixels of the
@@ -283,4 +292,99 @@ TEST_CASE("errors are written in percent, and in words from 100 % on", "[apps]")
     statistics.worstErrorShare = 0.881;
     CHECK(estimateText(statistics) ==
           "36 % (median tile 2.9 %, the worst 0.1 % of the pixels hold 88 % of its square)");
+}
+
+namespace
+{
+
+/// Returns whether the panel took the key.
+bool sendTo(SettingsPanel& panel, osgViewer::Viewer& viewer, int key)
+{
+    const osg::ref_ptr<Event> event = new Event;
+    event->setEventType(Event::KEYDOWN);
+    event->setKey(key);
+    return panel.handle(*event, viewer);
+}
+
+} // namespace
+
+TEST_CASE("viewer: the panel changes settings by arrows and clicks while it is open", "[apps]")
+{
+    const osg::ref_ptr<RayTracedScene> scene = new RayTracedScene;
+    RayTraceSettings& settings = *scene->getSettings();
+    const osg::ref_ptr<SettingsPanel> panel = new SettingsPanel(scene);
+    osgViewer::Viewer viewer;
+    CHECK_FALSE(sendTo(*panel, viewer, Event::KEY_Right)); // arrows belong to manipulators
+    CHECK(sendTo(*panel, viewer, Event::KEY_Tab));
+    CHECK(panel->isOpen());
+    CHECK_FALSE(sendTo(*panel, viewer, 'i'));
+    const auto press = [&](int key, int times)
+    {
+        for (int i = 0; i < times; ++i)
+            CHECK(sendTo(*panel, viewer, key));
+    };
+    press(Event::KEY_Right, 2);
+    CHECK(settings.get("integrator") == "path");
+    press(Event::KEY_Left, 3);
+    CHECK(settings.get("integrator") == "debug"); // around the end
+    press(Event::KEY_Down, 2);
+    press(Event::KEY_Right, 1);
+    CHECK(settings.getLightSamples() == 8);
+    press(Event::KEY_Left, 5);
+    CHECK(settings.getLightSamples() == 1);
+    press(Event::KEY_Down, 1);
+    press(Event::KEY_Left, 10);
+    CHECK(settings.getMaxBounces() == 0);
+    press(Event::KEY_Down, 3);
+    press(Event::KEY_Right, 3);
+    CHECK(settings.getExposure() == 1.5f);
+    press(Event::KEY_Up, 7);
+    press(Event::KEY_Right, 1);
+    CHECK(settings.getGround() == "auto");
+    CHECK_THAT(panel->lines().back(), Contains("> ground") && Contains("< auto >"));
+
+    // The window is 200 pixels high; the first row is below the title.
+    const auto click = [&](float x, float fromTop)
+    {
+        const osg::ref_ptr<Event> event = new Event;
+        event->setEventType(Event::PUSH);
+        event->setInputRange(0.0f, 0.0f, 400.0f, 200.0f);
+        event->setMouseYOrientation(Event::Y_INCREASING_UPWARDS);
+        event->setX(x);
+        event->setY(200.0f - fromTop);
+        return panel->handle(*event, viewer);
+    };
+    CHECK(click(300.0f, 37.0f));
+    CHECK(settings.get("integrator") == "auto");
+    CHECK(click(40.0f, 37.0f));
+    CHECK(settings.get("integrator") == "debug");
+    CHECK_FALSE(click(40.0f, 20.0f));
+    CHECK_FALSE(click(390.0f, 37.0f));
+    CHECK(sendTo(*panel, viewer, Event::KEY_Tab));
+    CHECK_FALSE(panel->isOpen());
+    CHECK_FALSE(click(40.0f, 37.0f));
+}
+
+TEST_CASE("viewer: x lets the exposure follow the picture's mean, and is told", "[apps][gl]")
+{
+    const osg::ref_ptr<RayTracedScene> scene =
+        tracedScene(sphere(osg::Vec3(), 2.0f, osg::Vec4(0.02f, 0.02f, 0.02f, 1)));
+    const osg::ref_ptr<KeyHandler> keys = new KeyHandler(scene);
+    RayTraceSettings& settings = *scene->getSettings();
+    settings.setMaxPasses(64);
+    TestViewer viewer(32, 32, scene);
+    const osg::ref_ptr<osg::Image> plain = viewer.frames(2);
+    CHECK(scene->getDrawable()->getStatistics().autoExposure == 0.0);
+    const float dark = plain->getColor(16, 16).g();
+    CHECK(send(*keys, viewer.viewer, Event::KEYDOWN, 'x'));
+    const float bright = viewer.frames(2)->getColor(16, 16).g();
+    const double first = scene->getDrawable()->getStatistics().autoExposure;
+    CHECK(first > 2.0);
+    CHECK(bright > dark + 0.2f);
+    CHECK_THAT(statusText(*scene, false), Contains("automatic"));
+    viewer.frames(20);
+    CHECK(scene->getDrawable()->getStatistics().autoExposure == first); // nothing flickers
+    CHECK(scene->getDrawable()->getStatistics().passes > 20);           // and nothing restarts
+    CHECK(send(*keys, viewer.viewer, Event::KEYDOWN, 'x'));
+    CHECK(viewer.frames(2)->getColor(16, 16).g() == Approx(dark).margin(0.01));
 }

@@ -68,6 +68,46 @@ class PicturesAreThoseOfCpp(unittest.TestCase):
         self.assertEqual(seen, {"": {0.0}, "Group/lower/square": {0.0}, "Group/triangle": {1.0}})
         self.assertEqual(cornell_box().id_paths(), [])
 
+    def test_a_shutter_shows_each_pass_at_its_moment(self):
+        eyes = {False: (0, -9, 20), True: (4, -9, 20)}
+
+        def placed(passes, moment=0.0):
+            renderer = osgraytrace.Renderer(osgraytrace.Scene.from_text(TEXT), size=(20, 20),
+                                            passes=passes, seed=3)
+            renderer.look_at(eye=eyes[moment >= 0.5], center=(0, 0, 0), fovy=20)
+            return renderer
+
+        def still(moment):
+            renderer = placed(64, moment)
+            renderer.render()
+            return renderer.color()
+
+        moments = []
+
+        def pose(moment):
+            moments.append(moment)
+            renderer.look_at(eye=eyes[moment >= 0.5], center=(0, 0, 0), fovy=20)
+
+        renderer = placed(64)
+        view = renderer.view_matrix
+        statistics = renderer.render(shutter=pose)
+        self.assertEqual(statistics["passes"], 64)
+        self.assertTrue(numpy.array_equal(renderer.view_matrix, view))
+        self.assertEqual(moments.count(1.0), 1)
+        inside = sorted(moment for moment in set(moments) if moment < 1.0)
+        self.assertTrue(0.4 < numpy.mean(inside) < 0.6)
+        expected = 0.5 * (still(0.0) + still(0.9))
+        self.assertGreater(abs(still(0.0) - expected).mean(), 0.01)
+        self.assertLess(abs(renderer.color() - expected).mean(), 0.003)
+
+        def fail(moment):
+            raise KeyError("from the shutter")
+
+        with self.assertRaisesRegex(KeyError, "from the shutter"):
+            renderer.render(shutter=fail)
+        renderer.render()
+        self.assertLess(abs(renderer.color() - still(0.0)).mean(), 0.003)
+
     def test_passes_of_two_renderers_add_up_to_those_of_one(self):
         whole = cornell_box(max_passes=4)
         whole.render()

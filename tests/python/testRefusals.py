@@ -94,6 +94,8 @@ class WrongInputRaises(unittest.TestCase):
                 renderer.render(**wrong)
         with self.assertRaisesRegex(TypeError, "progress"):
             renderer.render(progress=3)
+        with self.assertRaisesRegex(TypeError, "shutter"):
+            renderer.render(shutter=0.5)
 
     def test_sums_of_another_picture(self):
         renderer, other = cornell_box(), cornell_box(seed=3)

@@ -102,6 +102,7 @@ std::vector<Edit> edits()
         [](Scene& s) { s.background.w = 1.0f; },
         [](Scene& s) { s.displayReferred = false; },
         [](Scene& s) { s.fogUse = FogUse::Off; },
+        [](Scene& s) { s.ground = -1.0f; },
         ofAtmosphere([](Atmosphere&) {}),
         ofAtmosphere([](Atmosphere& a) { a.medium.sigmaS.y = 0.7f; }),
         ofAtmosphere([](Atmosphere& a) { a.centre.z = 0.7f; }),

@@ -74,6 +74,7 @@ class Renderer:
         seconds: float = 0.0,
         error: float = 0.0,
         progress: Union[Callable[[dict[str, Any]], Any], None] = None,
+        shutter: Union[Callable[[float], Any], None] = None,
     ) -> dict[str, Any]: ...
     def cancel(self) -> None: ...
     @property

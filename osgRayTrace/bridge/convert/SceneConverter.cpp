@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/GraphTraits.h"
+#include "osgRayTrace/bridge/convert/GroundPlane.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
@@ -196,6 +197,8 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.materials.takeChanged();
     ConversionReport lightReport;
     setLights(*scene, input, graph.lights, state.caches, lightReport);
+    scene->ground = groundOf(input.ground, *scene);
+    warnWithoutShadows(*scene);
     report.add(lightReport);
     report.count("converted.light", scene->lights.size() - viewerLights(lightReport.counts()));
     state.last = stampChanges(scene, state.last, rules.now);

@@ -92,7 +92,8 @@ std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
     unchanged &= scene->origin == old.origin && scene->unit == old.unit &&
                  scene->ambient == old.ambient && scene->background == old.background &&
                  scene->displayReferred == old.displayReferred;
-    unchanged &= sameAtmosphere(*scene, old) && scene->fogUse == old.fogUse;
+    unchanged &=
+        sameAtmosphere(*scene, old) && scene->fogUse == old.fogUse && scene->ground == old.ground;
     scene->changed = now;
     return unchanged ? previous : scene;
 }

@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/lights/LightSizes.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialLibrary.h"
 #include "osgRayTrace/bridge/common/CullPass.h"
+#include "osgRayTrace/bridge/common/GroundRequest.h"
 #include "osgRayTrace/bridge/common/ReferenceView.h"
 #include "osgRayTrace/scene/Fog.h"
 
@@ -31,6 +32,7 @@ struct ConversionSettings
     bool cullAllRays = false;
     bool headlightShadows = false;
     FogUse fogUse = FogUse::Depth;
+    GroundRequest ground;
     LightSizes lightSizes;
     float pointRadius = 0.0f;                         ///< see RayTraceSettings
     std::shared_ptr<const MaterialLibrary> materials; ///< null: materials of the graph only
@@ -43,8 +45,9 @@ struct ConversionSettings
     {
         return colorRule == other.colorRule && cullAllRays == other.cullAllRays &&
                headlightShadows == other.headlightShadows && fogUse == other.fogUse &&
-               lightSizes == other.lightSizes && pointRadius == other.pointRadius &&
-               materials == other.materials && hook == other.hook;
+               ground == other.ground && lightSizes == other.lightSizes &&
+               pointRadius == other.pointRadius && materials == other.materials &&
+               hook == other.hook;
     }
 };
 
@@ -57,9 +60,15 @@ inline FogUse fogUseOf(RayTraceSettings::Fog fog)
 inline ConversionSettings conversionSettings(const RayTraceSettings& settings,
                                              std::shared_ptr<const MaterialLibrary> materials)
 {
-    return {settings.getColorRule(),     settings.getCullAllRays(), settings.getHeadlightShadows(),
-            fogUseOf(settings.getFog()), lightSizesOf(settings),    settings.getPointRadius(),
-            std::move(materials),        settings.getMaterialHook()};
+    return {settings.getColorRule(),
+            settings.getCullAllRays(),
+            settings.getHeadlightShadows(),
+            fogUseOf(settings.getFog()),
+            parseGround(settings.getGround()).value_or(GroundRequest()),
+            lightSizesOf(settings),
+            settings.getPointRadius(),
+            std::move(materials),
+            settings.getMaterialHook()};
 }
 
 /// Holds the graph to convert and the conditions of the conversion.

@@ -152,6 +152,7 @@ void setInputs(ViewInputs& inputs, const RayTraceSettings& settings)
 {
     inputs.options = renderOptionsFromSettings(settings);
     inputs.exposureEv = settings.getExposure();
+    inputs.autoExposure = settings.getAutoExposure();
     inputs.toneCurve = toneCurve(settings.getToneCurve());
     inputs.denoise = denoiseKind(settings);
     // A pixel behind a lens shows more than the surface that a pinhole sees in it.

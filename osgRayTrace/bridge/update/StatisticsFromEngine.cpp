@@ -155,6 +155,7 @@ void setStageStatistics(Statistics& statistics, const StageReport& report)
 {
     statistics.reprojectedShare = report.reprojectedShare;
     statistics.reprojectSeconds = report.reprojectSeconds;
+    statistics.autoExposure = static_cast<double>(report.autoEv);
     setDenoiseStatistics(statistics, report.denoised, report.denoiseSeconds);
 }
 

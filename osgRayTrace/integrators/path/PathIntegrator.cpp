@@ -28,6 +28,7 @@
 #include "osgRayTrace/integrators/shared/FogLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
+#include "osgRayTrace/integrators/shared/ShadowCatcher.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <cstring>
@@ -110,6 +111,23 @@ void addFog(Tile& tile, PathBlock& block, const Bounce& bounce)
     }
 }
 
+/// Lets the shadows on the ground take light from what the eye sees behind it, also by way of
+/// mirrors.
+void passGround(Tile& tile, PathBlock& block, int number)
+{
+    LaneMask seeing = 0;
+    for (const int i : lanesIn(block.active))
+        seeing |= static_cast<LaneMask>(!block.flagsOf(i).isScattered()) << i;
+    CaughtShadows caught;
+    catchShadows(tile.context, {block.rays, seeing, block.seed, static_cast<uint32_t>(number)},
+                 tile.counts, caught);
+    for (const int i : lanesIn(caught.lanes))
+    {
+        setLane(block.throughput, i, laneOf(block.throughput, i) * caught.share[i]);
+        if (number == 0) tile.sums.a[block.flagsOf(i).pixel()] = 1.0f - caught.share[i];
+    }
+}
+
 /// Takes the paths of a block through media. What is seen first is what stands behind the media.
 LaneMask throughMedia(Tile& tile, int b, int number, bool last, PhotonUse use)
 {
@@ -139,6 +157,7 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
     countRays(tile, block, block.active);
 
     const SceneTraits& traits = traced.traits();
+    if (traits.ground) passGround(tile, block, number);
     Bounce bounce;
     bounce.number = number;
     bounce.bsdfs = tile.bsdfs;

@@ -175,7 +175,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
         block->passed = traits.blended ? passThrough(tile, *block) : 0;
         if (traits.attenuation)
             block->passed |= attenuate(tile.context, block->rays, block->surface, block->weight);
-        if (traits.media) block->passed |= block->dimmed;
+        if (traits.media || traits.ground) block->passed |= block->dimmed;
     }
     addDirectLight(tile, blocks, count);
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -224,6 +224,7 @@ void traceSecondary(WhittedTile& tile)
         for (const int i : lanesIn(block.dimmed))
             tile.add(block.pixel[i], laneOf(block.air, i));
     }
+    if (traced.traits().ground) passGround(tile, block, active);
     for (const int i : lanesIn(active & ~block.surface.hits))
     {
         if (fromCamera && !seen)
@@ -289,7 +290,7 @@ void showAir(WhittedTile& tile, const ShadingBlock& block, RgbaLanes& rgba)
     {
         tile.add(block.pixel[i], laneOf(block.air, i));
         const Vec3 left = laneOf(block.weight, i);
-        const float cover = std::clamp(1.0f - (left.x + left.y + left.z) / 3.0f, 0.0f, 1.0f);
+        const float cover = std::max(0.0f, 1.0f - (left.x + left.y + left.z) / 3.0f);
         if (!((block.surface.hits >> i) & 1u)) rgba.a[i] = std::max(rgba.a[i], cover);
     }
 }
@@ -318,6 +319,9 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
     const bool media = traced.traits().media;
     for (ShadingBlock* block = tile.group; media && block != tile.group + kGroup; ++block)
         addAir(tile, *block, kAllLanes);
+    const bool ground = traced.traits().ground;
+    for (ShadingBlock* block = tile.group; ground && block != tile.group + kGroup; ++block)
+        passGround(tile, *block, kAllLanes);
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)
     {
@@ -331,10 +335,10 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         for (const int i : lanesIn(seen ? kAllLanes & ~block.surface.hits : 0))
         {
             const Vec3 behind = radianceBehind(context, block.rays.ray, i);
-            tile.add(block.pixel[i], media ? behind * laneOf(block.weight, i) : behind);
+            tile.add(block.pixel[i], media || ground ? behind * laneOf(block.weight, i) : behind);
             rgba.a[i] = 1.0f;
         }
-        if (media) showAir(tile, block, rgba);
+        if (media || ground) showAir(tile, block, rgba);
     }
 }
 

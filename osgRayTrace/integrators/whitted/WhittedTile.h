@@ -151,6 +151,11 @@ void spawn(WhittedTile& tile, const ShadingBlock& block);
 /// and dimmed. Scenes without SceneTraits::media need no call.
 void addAir(WhittedTile& tile, ShadingBlock& block, LaneMask active);
 
+/// Multiplies the weights of active lanes, which are of rays from the eye or by mirrors and glass,
+/// by what shadows on the ground leave of what is behind it, and adds these lanes to dimmed. Scenes
+/// without SceneTraits::ground need no call.
+void passGround(WhittedTile& tile, ShadingBlock& block, LaneMask active);
+
 /// Multiplies visible samples by what media leave of them, in scenes with SceneTraits::media.
 void dimSamples(const WhittedTile& tile, LaneMask visible, LightLanes& samples);
 

@@ -25,6 +25,7 @@ bool sameWorld(const Scene& a, const Scene& b)
     const bool air = a.atmosphere == b.atmosphere ||
                      (a.atmosphere && b.atmosphere && *a.atmosphere == *b.atmosphere);
     const bool media = air && a.fogUse == b.fogUse;
+    if (hasGround(a.ground) || hasGround(b.ground)) return false; // no pixel knows its shadows
     const bool lights = std::equal(
         a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(),
         [](const Light& x, const Light& y) { return x.kind == y.kind && x.changed == y.changed; });

@@ -112,6 +112,7 @@ void estimateErrors(const float* history, const float* count, float passes, cons
 ViewDependence viewDependence(const Scene& scene)
 {
     ViewDependence result;
+    result.everywhere = hasGround(scene.ground); // its shadows belong to no surface
     for (const Light& light : scene.lights)
         result.everywhere = result.everywhere || light.eyeSpace;
     for (const Material& material : scene.materials)

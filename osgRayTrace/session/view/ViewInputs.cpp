@@ -20,7 +20,8 @@ bool sameImage(const ViewInputs& a, const ViewInputs& b)
 {
     return a.scene == b.scene && a.workers == b.workers && a.photons == b.photons &&
            a.help == b.help && !a.options.needsRestart(b.options) && a.exposureEv == b.exposureEv &&
-           a.toneCurve == b.toneCurve && a.denoise == b.denoise && a.reprojects == b.reprojects &&
+           a.autoExposure == b.autoExposure && a.toneCurve == b.toneCurve &&
+           a.denoise == b.denoise && a.reprojects == b.reprojects &&
            a.keepsUnchanged == b.keepsUnchanged && a.maxPasses == b.maxPasses &&
            a.passesPerFrame == b.passesPerFrame;
 }

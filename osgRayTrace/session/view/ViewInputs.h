@@ -25,7 +25,8 @@ struct ViewInputs
     std::shared_ptr<PhotonPasses> photons; ///< shared by all views of the scene
     std::shared_ptr<TileHelp> help;        ///< null: all tiles are traced here
     RenderOptions options;
-    float exposureEv = 0.0f; ///< [f-stops]
+    float exposureEv = 0.0f;   ///< [f-stops]
+    bool autoExposure = false; ///< the mean of the image adds to exposureEv
     ToneCurve toneCurve = ToneCurve::Srgb;
     DenoiseKind denoise = DenoiseKind::Off;
     bool reprojects =

@@ -17,6 +17,7 @@ struct StageReport
     /// these views into the image took.
     double reprojectedShare = 0.0;
     double reprojectSeconds = 0.0;
+    float autoEv = 0.0f; ///< exposure that the mean of the image adds [EV]
 };
 
 /// A session's progress, and what the view adds to that progress.

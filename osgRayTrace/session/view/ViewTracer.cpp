@@ -79,7 +79,7 @@ bool ViewTracer::trace(const ViewInputs& inputs, const View& pass, const FrameBu
     // The first pass of a tile writes its depths.
     const bool holdsDepth = _holdsFull && _displayState == DisplayState::Whole;
     _changed.reset(_view.width, _view.height);
-    _display = {toneMapOf(inputs), rgba, holdsDepth ? nullptr : depth};
+    _display = {shownBy(inputs), rgba, holdsDepth ? nullptr : depth};
     _display.changed = &_changed;
     _written = false;
     _upsampleBudget = budget.upsampleShare * budget.seconds;
@@ -214,6 +214,7 @@ ViewProgress ViewTracer::progress() const
     progress.status = _status;
     progress.error = _displayState == DisplayState::Whole ? _error : ErrorEstimate();
     progress.stages = imageStages().report(image());
+    progress.stages.autoEv = _autoEv;
     return progress;
 }
 

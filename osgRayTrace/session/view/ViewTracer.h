@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/ThreadSeam.h"
+#include "osgRayTrace/film/ExposureMeter.h"
 #include "osgRayTrace/session/RenderSession.h"
 #include "osgRayTrace/session/view/FrameAgreement.h"
 #include "osgRayTrace/session/view/FramePlan.h"
@@ -179,6 +180,8 @@ private:
                           const DisplayTarget* display);
     void estimateError();
     void chooseUpsampling(double seconds);
+    void meter();
+    ToneMap shownBy(const ViewInputs& inputs);
     void presentReduced(int divider, uint8_t* rgba, float* depth);
     void enlargeReduced(uint8_t* rgba, float* depth);
 
@@ -258,9 +261,11 @@ private:
 
     // The following describe the contents of the display.
     ToneMap _toneMap;
-    DisplayTarget _display; ///< target of this frame; rgba is null if it cannot be used
-    bool _written = false;  ///< whether the image of the frame is in _display
-    ChangedTiles _changed;  ///< the tiles that this frame wrote
+    EasedExposure _exposure; ///< what the meter has told, with RayTraceSettings::setAutoExposure
+    float _autoEv = 0.0f;    ///< what of it the display has [EV]
+    DisplayTarget _display;  ///< target of this frame; rgba is null if it cannot be used
+    bool _written = false;   ///< whether the image of the frame is in _display
+    ChangedTiles _changed;   ///< the tiles that this frame wrote
     bool _holdsFull =
         false; ///< whether the display has the image in full size, so that tiles may be added
     bool _imageChanged = false; ///< whether the image has changed since it was resolved

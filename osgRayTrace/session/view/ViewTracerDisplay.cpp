@@ -12,10 +12,30 @@ namespace osgRayTrace::engine
 bool ViewTracer::needsResolve(const ViewInputs& inputs)
 {
     const ThreadSeam::Entry inside(_seam);
-    _toneMap = toneMapOf(inputs);
+    if (inputs.autoExposure) meter();
+    _toneMap = shownBy(inputs);
     setDenoise(inputs.denoise);
     return hasImage() && (_imageChanged || !_resolved || _toneMap != *_resolved ||
                           _stages.denoise() != _resolvedDenoise);
+}
+
+/// Reads the exposure of the image, and has the display follow it.
+void ViewTracer::meter()
+{
+    constexpr int kMostTiles = 256; // some 0.1 ms
+    if (!hasImage()) return;
+    const std::optional<float> reading = image().meteredEv(kMostTiles);
+    if (reading) _autoEv = _exposure.follow(*reading);
+}
+
+/// Views that agree show one picture, and keep the exposure that is set.
+ToneMap ViewTracer::shownBy(const ViewInputs& inputs)
+{
+    ToneMap toneMap = toneMapOf(inputs);
+    if (!inputs.autoExposure) _exposure.reset();
+    if (!inputs.autoExposure || _agreement) _autoEv = 0.0f;
+    toneMap.exposureEv += _autoEv;
+    return toneMap;
 }
 
 void ViewTracer::resolve(uint8_t* rgba, float* depth)
