@@ -123,7 +123,7 @@ TEST_CASE("group: a rank without memory for the scene says so", "[apps]")
 {
     ThreadNetwork network(2, 1, 0);
     GroupMessage offer(GroupMessage::Kind::Scene);
-    offer.bytes = ~std::uint64_t(0) >> 1;
+    offer.bytes = ~std::uint64_t(0); // no vector holds as many: sanitizers are not asked for them
     ThreadGroup zero(network, 0), one(network, 1);
     zero.send(1, offer);
     CHECK_THROWS_WITH(receiveScene(one), Contains("there is not enough memory for the scene"));

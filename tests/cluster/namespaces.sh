@@ -97,6 +97,6 @@ kill_in_job "a killed rank" "$name"
 kill_in_job "a killed host" "$name orted"
 
 if [ -n "${EFFICIENCY_SECONDS:-}" ]; then
-    "$here/efficiency.py" "$program" "$model" "$EFFICIENCY_SECONDS" 2 3 "${launch[@]}" --leave-session-attached || failed=1
+    "$here/efficiency.py" "$program" "$model" "$EFFICIENCY_SECONDS" 2 3 "${launch[@]}" || failed=1
 fi
 exit $failed
