@@ -21,8 +21,8 @@ struct VolumePhotons
 };
 
 /// The exponents of the schedules of kernels of d dimensions, whose measure goes with the number of
-/// passes to the power of alpha - 1 [Knaus11; Jarosz11b]. Variance then goes with -alpha and squared
-/// bias with -4 (1 - alpha) / d; both fall alike for alpha = 4 / (4 + d).
+/// passes to the power of alpha - 1 [Knaus11; Jarosz11b]. Variance then goes with -alpha and
+/// squared bias with -4 (1 - alpha) / d; both fall alike for alpha = 4 / (4 + d).
 constexpr double kBeamAlpha = 4.0 / 5.0;
 constexpr double kPointAlpha = 4.0 / 7.0;
 

@@ -31,6 +31,11 @@ std::vector<VolumeScene> volumeScenes()
     SceneBuilder& bodies = scenes.back().builder;
     bodies.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(mediumOf(0.02f, 0.95f), 1.4f));
     bodies.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mediumOf(0.01f, 0.9f, 0.5f)));
+
+    scenes.push_back({"dense bodies", cornellBox()}); // photons are points there
+    SceneBuilder& dense = scenes.back().builder;
+    dense.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(mediumOf(0.4f, 0.95f), 1.4f));
+    dense.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mediumOf(0.5f, 0.9f, 0.5f)));
     return scenes;
 }
 
@@ -46,18 +51,18 @@ TEST_CASE("volume photons: agree with paths", "[photons][statistics][media]")
         const auto traced = scene.builder.build();
         const View view = cornellView(16, 16);
         RenderOptions options = optionsOf(IntegratorKind::Path, 12);
-        const Estimate path = meanOf(traced, view, options, 64);
+        const Estimate path = meanOf(traced, view, options, 32);
         for (const IntegratorKind kind :
              {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
         {
             options.integrator = kind;
-            options.photons = 8000;
+            options.photons = 4000;
             options.photonRadius = 4.0f;
             const Estimate photons = meanOf(traced, view, options, 8);
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);
-            CHECK(photons.standardError() < 0.02 * path.mean());
+            CHECK(photons.standardError() < 0.035 * path.mean());
             CHECK(p > threshold);
         }
     }
@@ -89,8 +94,8 @@ TEST_CASE("volume photons: the same bits for any number of threads", "[photons][
         {
             const auto traced = scene.builder.build();
             RenderOptions options = optionsOf(kind, 8);
-            options.photons = 6000;
-            const View view = cornellView(40, 40);
+            options.photons = 4000;
+            const View view = cornellView(24, 24);
             CAPTURE(scene.name, int(kind));
             const Picture one = render(traced, view, options, 2, 1);
             CHECK(one.rgba == render(traced, view, options, 2, 2).rgba);
