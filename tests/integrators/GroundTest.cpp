@@ -83,7 +83,7 @@ TEST_CASE("ground: lights without shadows brighten the shadows of others", "[int
 {
     SceneBuilder builder = squareAbove(1.0f);
     builder.addLight(sunFrom(Vec3(1, 0, 1)));
-    Light headlight = sunFrom(Vec3(-1, 0, 1));
+    Light headlight = sunFrom(Vec3(1, 0, 1)); // behind the square, too
     headlight.castsShadows = false;
     headlight.diffuse = Vec3(3.0f);
     builder.addLight(headlight);
