@@ -191,7 +191,8 @@ void compositeDrawnParts(const DrawnFrames& frames, const Camera& camera,
     const osg::Image& depth = *frames.capture.getDepthImage();
     const osg::ref_ptr<osg::Image> tracedColor = copyOf(color), tracedDepth = copyOf(depth);
 
-    FrameSums sums(*tracedColor, *tracedDepth, settings.getExposure());
+    const auto metered = static_cast<float>(picture.statistics.autoExposure);
+    FrameSums sums(*tracedColor, *tracedDepth, settings.getExposure() + metered);
     osg::ref_ptr<osg::Image> middleDepth;
     const int samples = std::min(settings.getMaxPasses(), kMostSamples);
     for (int sample = 0; sample < samples; ++sample)

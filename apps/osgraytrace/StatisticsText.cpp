@@ -87,6 +87,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
         json["denoiseMilliseconds"] = statistics.denoiseMilliseconds;
         json["denoiseNote"] = statistics.denoiseNote;
     }
+    if (options.settings->getAutoExposure()) json["autoExposure"] = statistics.autoExposure;
     json["droppedSamples"] = statistics.droppedSamples;
     json[options.context == Context::None ? "leftOut" : "drawnByOpenGL"] = drawnParts(statistics);
     json["conversion"] = statistics.conversion;
