@@ -79,7 +79,7 @@ bool watchSees(osg::Node* node, const ViewingConditions& before, const ViewingCo
     watch.record(*root, before);
     CHECK(watch.look(*root, before).none());
     change();
-    const bool seen = watch.look(*root, after).convert;
+    const bool seen = !watch.look(*root, after).none();
     watch.record(*root, after);
     CHECK(watch.look(*root, after).none());
     return seen;
@@ -197,6 +197,7 @@ TEST_CASE("nodes: what turns to the view or moves with it shows in the hash, oth
     absolute->addChild(triangleGeometry());
     CHECK(changes(absolute));
     osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    clip->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0));
     clip->addChild(triangleGeometry());
     CHECK_FALSE(changes(clip));
     clip->setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
@@ -212,7 +213,6 @@ TEST_CASE("nodes: what turns to the view or moves with it shows in the hash, oth
     far.eye.set(0.0, 0.0, 11.0);
     CHECK(watchSees(levels, near, far, kNoChange));
 
-    clip->addClipPlane(new osg::ClipPlane(0, 1.0, 0.0, 0.0, 0.0));
     const uint64_t before = graphHash(*clip, ViewingConditions());
     clip->getClipPlane(0)->setClipPlane(1.0, 0.0, 0.0, 0.1);
     CHECK(graphHash(*clip, ViewingConditions()) != before);

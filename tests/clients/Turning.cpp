@@ -16,7 +16,7 @@ class Spin : public osg::NodeCallback
 public:
     void operator()(osg::Node* node, osg::NodeVisitor* visitor) override
     {
-        const double angle = 0.02 * visitor->getFrameStamp()->getFrameNumber();
+        const double angle = 0.002 * visitor->getFrameStamp()->getFrameNumber();
         static_cast<osg::MatrixTransform*>(node)->setMatrix(
             osg::Matrix::rotate(angle, osg::Vec3d(0.0, 0.0, 1.0)));
         traverse(node, visitor);
