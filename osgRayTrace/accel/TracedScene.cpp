@@ -62,6 +62,7 @@ struct TracedScene::Implementation
     std::shared_ptr<const MaterialPart> materials;
     std::unique_ptr<LightTable> lights;
     MediumTable media;
+    GridTable grids;
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
@@ -278,7 +279,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old, const Wo
                     sameParts(scene->materials, old->scene->materials, stamp);
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp) &&
-        scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse;
+        scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse &&
+        sameParts(scene->volumes, old->scene->volumes, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr,
                                           &materials->table, &workers);
@@ -340,7 +342,14 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.intersector =
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
-    const Box box = boundsOf(top);
+    Box box = boundsOf(top);
+    if (built.traits.volumes)
+    {
+        built.grids = GridTable(*built.scene, old ? &old->grids : nullptr,
+                                old ? old->scene.get() : nullptr, workers.get());
+        built.grids.widen(box.low, box.high);
+        built.statistics.builtVolumes = built.grids.builtBlocks();
+    }
     if (built.traits.media) built.media = MediumTable(*built.scene, box.low, box.high);
 
     BuildStatistics& statistics = built.statistics;
@@ -381,6 +390,10 @@ const LightTable& TracedScene::lights() const
 const MediumTable& TracedScene::media() const
 {
     return _implementation->media;
+}
+const GridTable& TracedScene::grids() const
+{
+    return _implementation->grids;
 }
 const VertexTangents* TracedScene::vertexTangents(uint32_t instance, uint32_t uvSet) const
 {

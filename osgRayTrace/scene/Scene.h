@@ -6,6 +6,7 @@
 #include "osgRayTrace/scene/Material.h"
 #include "osgRayTrace/scene/Medium.h"
 #include "osgRayTrace/scene/Mesh.h"
+#include "osgRayTrace/scene/Volume.h"
 
 #include <memory>
 #include <vector>
@@ -28,6 +29,7 @@ struct Scene
     std::vector<Light> lights;
     std::shared_ptr<const Atmosphere> atmosphere; ///< null: see atmosphereOf
     FogUse fogUse = FogUse::Depth;
+    std::vector<Volume> volumes; ///< at most kMostVolumes
 
     Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
     Vec4 background{0.0f}; ///< RGBA that rays see which leave the scene; not a light

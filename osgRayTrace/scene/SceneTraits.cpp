@@ -101,6 +101,11 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
         traits.media = true;
         traits.scattering |= around->medium.scatters();
     }
+    for (const Volume& volume : scene.volumes)
+    {
+        traits.volumes = traits.media = true;
+        traits.scattering |= volume.law == VolumeLaw::Density && volume.medium.scatters();
+    }
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)
