@@ -37,8 +37,11 @@ float lightScale(const March& march, Vec3 p)
         d[k] = march.gradientStep;
         gradient[k] = volumeValue(image, p + d) - volumeValue(image, p - d);
     }
-    if (gradient == Vec3(0.0f)) return 1.0f;
-    const float cosine = glm::dot(glm::normalize(gradient), march.lightDirection);
+    // A vector of tiny values would have no length in floats.
+    const float largest =
+        std::max(std::fabs(gradient.x), std::max(std::fabs(gradient.y), std::fabs(gradient.z)));
+    if (!(largest > 0.0f) || !(largest < kInfinity)) return 1.0f;
+    const float cosine = glm::dot(glm::normalize(gradient / largest), march.lightDirection);
     return kAmbient + kDiffuse * std::max(0.0f, cosine);
 }
 
@@ -77,7 +80,7 @@ void marchCells(March march, MarchedVolume& result)
         left = behind;
     }
     result.opacity = done < count ? 1.0f : std::clamp(1.0f - left, 0.0f, 1.0f);
-    result.color = sum;
+    result.color = sum * result.opacity; // the shader blends the sum by its opacity once more
 }
 
 /// Back to front, one step a sample length.
@@ -113,13 +116,13 @@ void marchSamples(March march, MarchedVolume& result)
     const float opacity = std::min(sum * volume.transparency, 1.0f);
     if (opacity < volume.cutoff) return;
     result.opacity = std::max(opacity, 0.0f);
-    result.color = color * volume.tint;
+    result.color = color * volume.tint * result.opacity;
 }
 
 } // namespace
 
 MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float begin, float end,
-                    const Light* light)
+                    const VolumeLight& light)
 {
     RayPart part{begin, end};
     clipToCube(grid.tileFromEngine, origin, direction, part);
@@ -129,13 +132,13 @@ MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float b
     const Vec3 exit = origin + direction * part.end;
     March way{*grid.volume, transformPoint(grid.imageFromEngine, origin + direction * part.begin),
               transformPoint(grid.imageFromEngine, exit), Vec3(0.0f), 0.0f};
-    if (grid.volume->lit && light)
+    if (!isFinite(way.from) || !isFinite(way.to)) return result; // the box is too small for floats
+    if (grid.volume->lit)
     {
         // In the space of the tile's cube, as gl_ModelViewMatrixInverse leads to.
-        const bool isFar = light->kind == LightKind::Directional;
-        const Vec3 towards = isFar ? grid.tileFromEngine.linear * light->direction
-                                   : transformPoint(grid.tileFromEngine, light->position) -
-                                         transformPoint(grid.tileFromEngine, exit);
+        const Vec3 towards = light.isFar ? grid.tileFromEngine.linear * light.direction
+                                         : transformPoint(grid.tileFromEngine, light.position) -
+                                               transformPoint(grid.tileFromEngine, exit);
         const float length = glm::length(towards);
         if (length > 0.0f) way.lightDirection = towards / length;
     }

@@ -7,13 +7,19 @@
 #pragma once
 
 #include "osgRayTrace/media/GridTable.h"
-#include "osgRayTrace/scene/Light.h"
 
 namespace osgRayTrace::engine
 {
 
-/// What a volume puts before what is behind it: color * opacity + (1 - opacity) * behind. That the
-/// shaders multiply the sum of their colours by the opacity once more is in color * opacity.
+/// The light that lights volumes which are lit: OpenGL's light 0.
+struct VolumeLight
+{
+    bool isFar = true;    ///< directional
+    Vec3 direction{0.0f}; ///< in which light travels, if it is far [engine space]
+    Vec3 position{0.0f};  ///< otherwise
+};
+
+/// What a volume puts before what is behind it: color + (1 - opacity) * behind.
 struct MarchedVolume
 {
     float begin = kInfinity; ///< where the ray enters the volume
@@ -22,9 +28,8 @@ struct MarchedVolume
 };
 
 /// Returns what a ray of unit direction sees of a volume whose law is not VolumeLaw::Density
-/// between begin and end. light: the light with the number 0, which lights volumes that are lit;
-/// null: there is none.
+/// between begin and end.
 MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float begin, float end,
-                    const Light* light);
+                    const VolumeLight& light);
 
 } // namespace osgRayTrace::engine

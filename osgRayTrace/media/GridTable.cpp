@@ -21,7 +21,7 @@ constexpr float kShortestSample = 1e-6f;
 
 bool isUsable(const Affine& m)
 {
-    const float volume = glm::determinant(m.linear);
+    const double volume = glm::determinant(glm::dmat3(m.linear));
     return isFinite(m.translation) && isFinite(m.linear[0]) && isFinite(m.linear[1]) &&
            isFinite(m.linear[2]) && std::isfinite(volume) && volume != 0.0f;
 }

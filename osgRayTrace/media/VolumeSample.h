@@ -71,8 +71,11 @@ inline Corner cornerOf(const VolumeImage& image, Vec3 p)
         return v > -1.0f ? static_cast<int>(std::floor(std::min(v, static_cast<float>(size)))) : -1;
     };
     const Corner corner{low(x, image.width), low(y, image.height), low(z, image.depth), 0, 0, 0};
-    const auto share = [](float v, int begin)
-    { return std::clamp(v - static_cast<float>(begin), 0.0f, 1.0f); };
+    const auto share = [](float v, int begin) // NaN becomes 0
+    {
+        const float t = v - static_cast<float>(begin);
+        return t > 0.0f ? std::min(t, 1.0f) : 0.0f;
+    };
     return {corner.x,           corner.y,           corner.z,
             share(x, corner.x), share(y, corner.y), share(z, corner.z)};
 }

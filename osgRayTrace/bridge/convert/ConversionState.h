@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MaterialList.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
+#include "osgRayTrace/bridge/appearance/textures/VolumeImages.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
@@ -31,6 +32,7 @@ struct ConversionCaches
     GeometryCache geometries;
     TextureConverter textures;
     EnvironmentConverter environment;
+    VolumeImages volumes;
     struct Quad
     {
         std::shared_ptr<const Mesh> mesh;

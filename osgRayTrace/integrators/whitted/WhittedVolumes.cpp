@@ -18,14 +18,15 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Returns the light that OpenGL numbers 0; null if there is none.
-const Light* firstLight(const PassContext& context)
+/// Returns the light that OpenGL numbers 0. Without one it is as OpenGL has it at first: far behind
+/// the eye.
+VolumeLight firstLight(const PassContext& context)
 {
     for (const Light& light : *context.lights)
-        if ((light.kind == LightKind::Directional || light.kind == LightKind::Point) &&
-            light.number == 0)
-            return &light;
-    return nullptr;
+        if (light.number == 0 &&
+            (light.kind == LightKind::Directional || light.kind == LightKind::Point))
+            return {light.kind == LightKind::Directional, light.direction, light.position};
+    return {true, -context.towardsViewer, Vec3(0.0f)};
 }
 
 } // namespace
@@ -59,7 +60,7 @@ void dimByDensities(const PassContext& context, ShadingBlock& block, int i, cons
 void addVolumes(const WhittedTile& tile, ShadingBlock& block, LaneMask active)
 {
     const GridTable& grids = tile.context.traced->grids();
-    const Light* light = firstLight(tile.context);
+    const VolumeLight light = firstLight(tile.context);
     const RayBlock& ray = block.rays.ray;
     for (const int i : lanesIn(active))
     {
@@ -80,7 +81,7 @@ void addVolumes(const WhittedTile& tile, ShadingBlock& block, LaneMask active)
         Vec3 weight = laneOf(block.weight, i), air = laneOf(block.air, i);
         for (std::size_t k = 0; k < count; ++k)
         {
-            air += weight * found[k].color * found[k].opacity;
+            air += weight * found[k].color;
             weight *= 1.0f - found[k].opacity;
         }
         setLane(block.air, i, air);
