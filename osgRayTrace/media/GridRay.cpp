@@ -15,6 +15,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
+/// The brightest colour of a point: more would leave no floats for the light of dense volumes.
+constexpr float kBrightest = 1e6f;
+
 float largestOf(Vec3 v)
 {
     return std::max(v.x, std::max(v.y, v.z));
@@ -279,7 +282,8 @@ GridRay::Coefficients GridRay::at(float distance, bool withEmission) const
         sum.sigmaT += _extinctions[k] * amount;
         if (!withEmission) continue;
         const bool glows = grid.volume->law != VolumeLaw::Density;
-        sum.emission += (glows ? _extinctions[k] : grid.emission) * amount * point.color;
+        sum.emission += (glows ? _extinctions[k] : grid.emission) * amount *
+                        glm::clamp(point.color, 0.0f, kBrightest);
     }
     if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
     {

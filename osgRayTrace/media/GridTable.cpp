@@ -19,6 +19,17 @@ constexpr float kDepthPerCell = 1.73f;
 /// The shortest way over which an opacity is lost, so that depths stay finite.
 constexpr float kShortestSample = 1e-6f;
 
+/// Bounds that leave floats for the products with densities and colours [1/engine unit].
+constexpr float kLargestCoefficient = 1e24f, kLargestEmission = 1e18f;
+
+Vec3 usable(Vec3 coefficient, float largest)
+{
+    Vec3 result;
+    for (int c = 0; c < 3; ++c) // comparisons with NaN are false
+        result[c] = coefficient[c] > 0.0f ? std::min(coefficient[c], largest) : 0.0f;
+    return result;
+}
+
 bool isUsable(const Affine& m)
 {
     const double volume = glm::determinant(glm::dmat3(m.linear));
@@ -36,9 +47,9 @@ GridRecord recordOf(const Volume& volume, float unit)
     switch (volume.law)
     {
     case VolumeLaw::Density:
-        record.sigmaS = volume.medium.sigmaS * unit;
-        record.sigmaT = record.sigmaS + volume.medium.sigmaA * unit;
-        record.emission = volume.medium.emission * unit;
+        record.sigmaS = usable(volume.medium.sigmaS * unit, kLargestCoefficient);
+        record.sigmaT = record.sigmaS + usable(volume.medium.sigmaA * unit, kLargestCoefficient);
+        record.emission = usable(volume.medium.emission * unit, kLargestEmission);
         record.anisotropy =
             std::clamp(volume.medium.anisotropy, -kLargestAnisotropy, kLargestAnisotropy);
         record.scatters = volume.medium.scatters();

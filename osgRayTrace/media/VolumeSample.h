@@ -18,7 +18,7 @@ namespace osgRayTrace::engine
 constexpr float kLargestOpacity = 1.0f - 1.0f / 255.0f;
 
 /// The largest density. Values of images may be any finite float.
-constexpr float kLargestDensity = 1e12f;
+constexpr float kLargestDensity = 1e6f;
 
 /// What an image has at a point: a colour and a value.
 struct Voxel
