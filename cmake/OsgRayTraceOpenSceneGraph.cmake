@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 if(NOT TARGET osgRayTrace::OSG)
     find_package(OpenSceneGraph 3.6 REQUIRED QUIET
-                 COMPONENTS osgViewer osgGA osgText osgAnimation osgDB osgUtil)
+                 COMPONENTS osgViewer osgGA osgText osgAnimation osgVolume osgDB osgUtil)
     find_package(OpenGL REQUIRED QUIET)
     add_library(osgRayTrace::OSG INTERFACE IMPORTED)
     set_target_properties(osgRayTrace::OSG PROPERTIES

@@ -36,6 +36,10 @@ osg::ref_ptr<osg::Group> glasses();
 /// z is up.
 osg::ref_ptr<osg::Group> drinks();
 
+/// Returns a column of smoke above a table in the light of a low sun: a tile of osgVolume whose
+/// voxels are densities. Lengths are metres.
+osg::ref_ptr<osg::Group> smoke();
+
 /// Returns a dark room full of haze, into which a low sun shines through a window of coloured
 /// panes. Lengths are metres, z is up.
 osg::ref_ptr<osg::Group> hazeWindow();

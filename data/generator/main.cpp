@@ -5,6 +5,7 @@
 
 #include "apps/common/PluginPath.h"
 
+#include <osgDB/FileNameUtils>
 #include <osgDB/Options>
 #include <osgDB/WriteFile>
 
@@ -36,6 +37,7 @@ int main(int argc, char** argv)
         {"haze_window.osgt", hazeWindow()},
         {"glass_ball_fog.osgt", glassBallFog()},
         {"grids.osgt", grids()},
+        {"smoke.osgb", smoke()},
         {"furnace.osgt", furnace()},
         {"rings.osgt", rings()},
         {"glasses.osgt", glasses()},
@@ -49,10 +51,15 @@ int main(int argc, char** argv)
     };
     // Images are stored by their names.
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("WriteImageHint=UseExternal");
+    const osg::ref_ptr<osgDB::Options> packed =
+        new osgDB::Options("WriteImageHint=IncludeData Compressor=zlib");
     for (const File& file : files)
     {
         const std::string path = std::string(argv[1]) + "/" + file.name;
-        if (osgDB::writeNodeFile(*file.scene, path, options)) continue;
+        // Volumes have their voxels within the file.
+        const bool isBinary = osgDB::getFileExtension(path) == "osgb";
+        if (osgDB::writeNodeFile(*file.scene, path, isBinary ? packed.get() : options.get()))
+            continue;
         std::cerr << "osgraytrace_make_data: cannot write " << path << '\n';
         return 4;
     }

@@ -63,6 +63,7 @@ struct TracedScene::Implementation
     std::unique_ptr<LightTable> lights;
     MediumTable media;
     float groundSky = 0.0f;
+    GridTable grids;
     SceneTraits traits;
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
@@ -280,7 +281,8 @@ void TracedScene::Implementation::makeTables(const Implementation* old, const Wo
     const bool sameTraits =
         sameMaterials && sameMeshes && sameParts(scene->lights, old->scene->lights, stamp) &&
         scene->atmosphere == old->scene->atmosphere && scene->fogUse == old->scene->fogUse &&
-        scene->ground == old->scene->ground;
+        scene->ground == old->scene->ground &&
+        sameParts(scene->volumes, old->scene->volumes, stamp);
     materials = sameMaterials ? old->materials : std::make_shared<const MaterialPart>(*scene);
     lights = std::make_unique<LightTable>(*scene, old ? old->lights.get() : nullptr,
                                           &materials->table, &workers);
@@ -342,9 +344,16 @@ std::shared_ptr<const TracedScene> TracedScene::build(std::shared_ptr<const Scen
     built.intersector =
         std::make_unique<Intersector>(top, device.nativeWidth(), built.reach(), built.filter.get());
 
-    const Box box = boundsOf(top);
+    Box box = boundsOf(top);
     if (built.traits.ground && built.lights->shiningEnvironment())
         built.groundSky = irradianceOf(*built.lights->shiningEnvironment(), Vec3(0.0f, 0.0f, 1.0f));
+    if (built.traits.volumes)
+    {
+        built.grids = GridTable(*built.scene, old ? &old->grids : nullptr,
+                                old ? old->scene.get() : nullptr, workers.get());
+        built.grids.widen(box.low, box.high);
+        built.statistics.builtVolumes = built.grids.builtBlocks();
+    }
     if (built.traits.media) built.media = MediumTable(*built.scene, box.low, box.high);
 
     BuildStatistics& statistics = built.statistics;
@@ -390,6 +399,10 @@ float TracedScene::groundSky() const
 const MediumTable& TracedScene::media() const
 {
     return _implementation->media;
+}
+const GridTable& TracedScene::grids() const
+{
+    return _implementation->grids;
 }
 const VertexTangents* TracedScene::vertexTangents(uint32_t instance, uint32_t uvSet) const
 {

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/SurfaceTable.h"
 #include "osgRayTrace/base/Status.h"
+#include "osgRayTrace/media/GridTable.h"
 #include "osgRayTrace/media/MediumTable.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/scene/SceneTraits.h"
@@ -29,6 +30,7 @@ struct BuildStatistics
     size_t refitMeshes = 0;      ///< mesh BVHs adapted to other positions
     size_t staticBuilds = 0;     ///< builds of the static BVH: 0 or 1
     size_t commits = 0;          ///< calls of rtcCommitScene, for meshes and top level
+    size_t builtVolumes = 0;     ///< volumes whose blocks were found now; others: taken over
     size_t invalidInstances = 0; ///< left out: transform singular, not finite, or out of range
 };
 
@@ -57,6 +59,8 @@ public:
     /// Returns the irradiance of the ground by the environment, with nothing in its way, as a
     /// luminance [W/m^2]; 0 without SceneTraits::ground.
     float groundSky() const;
+    /// Returns the volumes that rays travel through; empty without SceneTraits::volumes.
+    const GridTable& grids() const;
     /// Returns the tangents that were made for the mesh of an instance by the texture coordinates
     /// of a set; null if its material needs none, or if it has tangents of its own, no
     /// normals or no coordinates.

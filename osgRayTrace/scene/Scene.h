@@ -7,6 +7,7 @@
 #include "osgRayTrace/scene/Material.h"
 #include "osgRayTrace/scene/Medium.h"
 #include "osgRayTrace/scene/Mesh.h"
+#include "osgRayTrace/scene/Volume.h"
 
 #include <memory>
 #include <vector>
@@ -30,6 +31,7 @@ struct Scene
     std::shared_ptr<const Atmosphere> atmosphere; ///< null: see atmosphereOf
     FogUse fogUse = FogUse::Depth;
     float ground = kNoGround; ///< height of the plane that shows shadows alone [engine units]
+    std::vector<Volume> volumes; ///< at most kMostVolumes
 
     Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
     Vec4 background{0.0f}; ///< RGBA that rays see which leave the scene; not a light

@@ -18,7 +18,7 @@ namespace
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
 static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
 static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
-              sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
+              sizeof(Medium) == 44 && sizeof(Atmosphere) == 60 && sizeof(Volume) == 232);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
 #endif
@@ -156,6 +156,17 @@ void addLight(const Light& l, Hasher& hasher)
     hasher.addArray(l.environment.image->radiance);
 }
 
+void addVolume(const Volume& v, Hasher& hasher)
+{
+    hasher.add(v.image->width, v.image->height, v.image->depth, v.image->channels);
+    hasher.addArray(v.image->bytes);
+    hasher.addArray(v.image->floats);
+    hasher.addArray(v.transfer);
+    hasher.add(v.transferScale, v.transferOffset, v.imageFromEngine, v.tileFromEngine, v.law);
+    addMedium(v.medium, hasher);
+    hasher.add(v.transparency, v.cutoff, v.sampleRatio, v.sampleLength, v.lit, v.tint);
+}
+
 } // namespace
 
 uint64_t sceneDigest(const Scene& scene)
@@ -180,6 +191,9 @@ uint64_t sceneDigest(const Scene& scene)
         addMedium(scene.atmosphere->medium, hasher);
         hasher.add(scene.atmosphere->centre, scene.atmosphere->radius);
     }
+    hasher.add(scene.volumes.size());
+    for (const Volume& volume : scene.volumes)
+        addVolume(volume, hasher);
     return hasher.value();
 }
 

@@ -104,6 +104,11 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
         traits.glowing |= around->medium.emits();
     }
     traits.ground = hasGround(scene.ground);
+    for (const Volume& volume : scene.volumes)
+    {
+        traits.volumes = traits.media = true;
+        traits.scattering |= volume.law == VolumeLaw::Density && volume.medium.scatters();
+    }
     for (const Light& light : scene.lights)
     {
         if (light.kind == LightKind::Environment)

@@ -25,6 +25,7 @@ struct SceneTraits
     bool panes = false;       ///< some surface lets light pass straight: see MaterialTable::pane
     bool attenuation = false; ///< light is absorbed within some body
     bool media = false;       ///< rays need to know what they travel through: see MediumTable
+    bool volumes = false;     ///< some image fills a box: see GridTable; media is then set, too
     bool scattering = false;  ///< some medium scatters light
     bool glowing = false;     ///< some medium emits light
     bool deltaLights = false; ///< directional or point lights

@@ -16,6 +16,11 @@ bool isFinitePosition(const Vec3& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+bool isFiniteColor(const Vec4& v)
+{
+    return isFinitePosition(Vec3(v)) && std::isfinite(v.w);
+}
+
 bool fits(std::size_t values, std::size_t positions)
 {
     return values == 0 || values == positions;
@@ -94,6 +99,25 @@ const char* environmentFault(const EnvironmentImage& image)
                : "an environment has radiance out of range";
 }
 
+const char* volumeFault(const VolumeImage& image)
+{
+    constexpr int kMost = 1 << 14; // along a side, so that products fit
+    const bool sides = image.width > 0 && image.height > 0 && image.depth > 0 &&
+                       image.width <= kMost && image.height <= kMost && image.depth <= kMost &&
+                       (image.channels == 1 || image.channels == 4);
+    if (!sides || image.bytes.empty() == image.floats.empty())
+        return "a volume is not of the size that it says";
+    const uint64_t values = uint64_t(image.width) * static_cast<uint64_t>(image.height) *
+                            static_cast<uint64_t>(image.depth) *
+                            static_cast<uint64_t>(image.channels);
+    if (std::max(image.bytes.size(), image.floats.size()) != values)
+        return "a volume is not of the size that it says";
+    return std::all_of(image.floats.begin(), image.floats.end(),
+                       [](float v) { return std::isfinite(v); })
+               ? nullptr
+               : "a volume has a value that is not finite";
+}
+
 const char* sceneFault(const Scene& scene)
 {
     const auto isIndex = [](uint32_t index, std::size_t size)
@@ -125,6 +149,11 @@ const char* sceneFault(const Scene& scene)
         !(isUsable(scene.atmosphere->medium) && isFinitePosition(scene.atmosphere->centre) &&
           std::isfinite(scene.atmosphere->radius)))
         return "the medium around the scene is out of range";
+    if (scene.volumes.size() > kMostVolumes) return "a scene has too many volumes";
+    for (const Volume& volume : scene.volumes)
+        if (!volume.image || !isUsable(volume.medium) ||
+            !std::all_of(volume.transfer.begin(), volume.transfer.end(), isFiniteColor))
+            return "a volume is out of range";
     for (const Light& light : scene.lights)
     {
         const bool needsInstance = light.kind == LightKind::Mesh;

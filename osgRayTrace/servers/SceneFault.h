@@ -13,6 +13,7 @@ namespace osgRayTrace::engine
 const char* meshFault(const Mesh& mesh);
 const char* textureFault(const Texture& texture);
 const char* environmentFault(const EnvironmentImage& image);
+const char* volumeFault(const VolumeImage& image);
 
 /// Looks at the lists alone: meshes, textures and images have been looked at one by one.
 const char* sceneFault(const Scene& scene);

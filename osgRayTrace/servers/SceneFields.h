@@ -14,12 +14,13 @@ namespace osgRayTrace::engine
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too. Names are for messages of the process
 // that has the scene graph, and stay there. A test sends an edit of each member.
-static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 216);
+static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
 static_assert(sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
 static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
 static_assert(sizeof(Mesh) == 360);
+static_assert(sizeof(VolumeImage) == 64 && sizeof(Volume) == 232);
 #endif
 
 template <> struct LastEnumerator<MaterialModel>
@@ -57,6 +58,10 @@ template <> struct LastEnumerator<FogMode>
 template <> struct LastEnumerator<FogUse>
 {
     static constexpr FogUse value = FogUse::Off;
+};
+template <> struct LastEnumerator<VolumeLaw>
+{
+    static constexpr VolumeLaw value = VolumeLaw::Samples;
 };
 template <> struct LastEnumerator<LightKind>
 {
@@ -134,6 +139,22 @@ template <class Archive> void fieldsOf(Archive& a, EnvironmentImage& e)
 {
     a(e.width, e.height);
     a.array(e.radiance);
+}
+
+template <class Archive> void fieldsOf(Archive& a, VolumeImage& v)
+{
+    a(v.width, v.height, v.depth, v.channels);
+    a.array(v.bytes);
+    a.array(v.floats);
+}
+
+/// The members of a volume but `image`.
+template <class Archive> void fieldsOf(Archive& a, Volume& v)
+{
+    a.array(v.transfer);
+    a(v.transferScale, v.transferOffset, v.imageFromEngine, v.tileFromEngine, v.law);
+    fieldsOf(a, v.medium);
+    a(v.transparency, v.cutoff, v.sampleRatio, v.sampleLength, v.lit, v.tint, v.changed);
 }
 
 /// The members of a light but `environment.image`.

@@ -25,10 +25,11 @@ enum class PartKind : uint8_t
     Mesh,
     Texture,
     EnvironmentImage,
+    VolumeImage,
 };
 template <> struct LastEnumerator<PartKind>
 {
-    static constexpr PartKind value = PartKind::EnvironmentImage;
+    static constexpr PartKind value = PartKind::VolumeImage;
 };
 
 template <class T> constexpr PartKind kArrayKind = PartKind::None;

@@ -45,6 +45,7 @@ bool takeArray(WireReader& in, PartKind kind, MeshArray& array)
     case PartKind::Mesh:
     case PartKind::Texture:
     case PartKind::EnvironmentImage:
+    case PartKind::VolumeImage:
         break;
     }
     return false;
@@ -95,7 +96,7 @@ bool SceneReceiver::takePart(WireReader& in)
     uint32_t number = 0;
     in(number);
     const bool isNew = number != 0 && !_arrays.count(number) && !_meshes.count(number) &&
-                       !_textures.count(number) && !_images.count(number);
+                       !_textures.count(number) && !_images.count(number) && !_voxels.count(number);
     if (!isNew) return refuse("a message about a scene has a part twice");
     if (kind == PartKind::Mesh)
     {
@@ -140,6 +141,14 @@ bool SceneReceiver::takePart(WireReader& in)
         if (const char* fault = environmentFault(*image)) return refuse(fault);
         _images[number] = std::move(image);
     }
+    else if (kind == PartKind::VolumeImage)
+    {
+        auto image = std::make_shared<VolumeImage>();
+        fieldsOf(in, *image);
+        if (!in.good()) return refuse("a message about a volume is damaged");
+        if (const char* fault = volumeFault(*image)) return refuse(fault);
+        _voxels[number] = std::move(image);
+    }
     else if (!takeArray(in, kind, _arrays[number]))
         return refuse("a message about an array is damaged");
     return true;
@@ -163,6 +172,18 @@ bool SceneReceiver::takeLists(WireReader& in, Scene& scene)
                      const auto known = _images.find(image);
                      light.environment.image = known == _images.end() ? nullptr : known->second;
                      if (image != 0 && known == _images.end()) from.fail();
+                 }) &&
+        takeList(in, scene.volumes,
+                 [&](WireReader& from, std::size_t i)
+                 {
+                     uint32_t image = 0;
+                     fieldsOf(from, scene.volumes[i]);
+                     from(image);
+                     const auto known = _voxels.find(image);
+                     if (known == _voxels.end())
+                         from.fail();
+                     else
+                         scene.volumes[i].image = known->second;
                  });
     if (!complete || in.left() > 0) return refuse("a message about a scene is damaged");
     return true;
@@ -237,6 +258,11 @@ void SceneReceiver::forgetUnused(const Scene& scene)
         shining.insert(light.environment.image.get());
     for (auto image = _images.begin(); image != _images.end();)
         image = shining.count(image->second.get()) ? std::next(image) : _images.erase(image);
+    std::unordered_set<const VolumeImage*> filling;
+    for (const Volume& volume : scene.volumes)
+        filling.insert(volume.image.get());
+    for (auto image = _voxels.begin(); image != _voxels.end();)
+        image = filling.count(image->second.get()) ? std::next(image) : _voxels.erase(image);
 }
 
 } // namespace osgRayTrace::engine

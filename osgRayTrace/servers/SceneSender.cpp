@@ -118,6 +118,15 @@ Bytes SceneSender::message(const Scene& scene)
                                            }));
     }
 
+    std::vector<uint32_t> voxels;
+    for (const Volume& volume : scene.volumes)
+        voxels.push_back(numberOf(volume.image, _voxels,
+                                  [&](uint32_t number)
+                                  {
+                                      parts.out(PartKind::VolumeImage, number);
+                                      putFields(parts.out, *volume.image);
+                                  }));
+
     const auto putSlot = [](WireWriter& out, uint32_t number) { out(number); };
     WireWriter& out = parts.out;
     out(PartKind::None);
@@ -132,6 +141,12 @@ Bytes SceneSender::message(const Scene& scene)
             {
                 putFields(to, light);
                 to(images[static_cast<std::size_t>(&light - scene.lights.data())]);
+            });
+    putList(out, scene.volumes, _volumes,
+            [&](WireWriter& to, const Volume& volume)
+            {
+                putFields(to, volume);
+                to(voxels[static_cast<std::size_t>(&volume - scene.volumes.data())]);
             });
     forgetUnused();
     return std::move(parts.bytes);
@@ -148,6 +163,7 @@ void SceneSender::forgetUnused()
     forget(_meshes);
     forget(_textures);
     forget(_images);
+    forget(_voxels);
     for (auto entry = _arrays.begin(); entry != _arrays.end();)
     {
         const std::shared_ptr<const Mesh> holder = entry->second.holder.lock();

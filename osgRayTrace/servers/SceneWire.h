@@ -62,8 +62,9 @@ private:
     KnownParts<Mesh> _meshes;
     KnownParts<Texture> _textures;
     KnownParts<EnvironmentImage> _images;
+    KnownParts<VolumeImage> _voxels;
     std::unordered_map<const void*, KnownArray> _arrays;
-    BlockHashes _meshSlots, _textureSlots, _instances, _materials, _lights;
+    BlockHashes _meshSlots, _textureSlots, _instances, _materials, _lights, _volumes;
 };
 
 /// Takes the messages of one sender. Nothing of a message is trusted.
@@ -94,6 +95,7 @@ private:
     std::unordered_map<uint32_t, std::array<uint32_t, kMostMeshArrays>> _meshArrays; ///< by mesh
     std::unordered_map<uint32_t, std::shared_ptr<const Texture>> _textures;
     std::unordered_map<uint32_t, std::shared_ptr<const EnvironmentImage>> _images;
+    std::unordered_map<uint32_t, std::shared_ptr<const VolumeImage>> _voxels;
     std::vector<uint32_t> _meshSlots, _textureSlots;
     std::shared_ptr<const Scene> _scene; ///< the last one
 };

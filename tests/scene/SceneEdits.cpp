@@ -30,6 +30,13 @@ Scene someScene()
     sky->radiance = {Vec3(1.0f)};
     light.environment.image = sky;
     scene.lights.push_back(light);
+    auto voxels = std::make_shared<VolumeImage>();
+    voxels->width = voxels->height = voxels->depth = 1;
+    voxels->bytes = {9};
+    Volume volume;
+    volume.image = voxels;
+    volume.transfer = {Vec4(0.1f), Vec4(0.2f)};
+    scene.volumes.push_back(volume);
     return scene;
 }
 
@@ -91,6 +98,21 @@ Edit ofAtmosphere(const std::function<void(Atmosphere&)>& edit)
     };
 }
 
+Edit ofVolume(const std::function<void(Volume&)>& edit)
+{
+    return [edit](Scene& scene) { edit(scene.volumes[0]); };
+}
+
+Edit ofVoxels(const std::function<void(VolumeImage&)>& edit)
+{
+    return [edit](Scene& scene)
+    {
+        auto image = std::make_shared<VolumeImage>(*scene.volumes[0].image);
+        edit(*image);
+        scene.volumes[0].image = image;
+    };
+}
+
 } // namespace
 
 std::vector<Edit> edits()
@@ -107,6 +129,35 @@ std::vector<Edit> edits()
         ofAtmosphere([](Atmosphere& a) { a.medium.sigmaS.y = 0.7f; }),
         ofAtmosphere([](Atmosphere& a) { a.centre.z = 0.7f; }),
         ofAtmosphere([](Atmosphere& a) { a.radius = 7.0f; }),
+        [](Scene& s) { s.volumes.push_back(s.volumes[0]); },
+        [](Scene& s) { s.volumes.clear(); },
+        ofVoxels([](VolumeImage& v) { v.bytes = {10}; }),
+        ofVoxels(
+            [](VolumeImage& v)
+            {
+                v.width = 2;
+                v.bytes = {10, 11};
+            }),
+        ofVoxels(
+            [](VolumeImage& v)
+            {
+                v.channels = 4;
+                v.floats = {0.1f, 0.2f, 0.3f, 0.4f};
+                v.bytes.clear();
+            }),
+        ofVolume([](Volume& v) { v.transfer[1].w = 0.7f; }),
+        ofVolume([](Volume& v) { v.transferScale = 2.0f; }),
+        ofVolume([](Volume& v) { v.transferOffset = 0.1f; }),
+        ofVolume([](Volume& v) { v.imageFromEngine.translation.y = 0.1f; }),
+        ofVolume([](Volume& v) { v.tileFromEngine.linear[1][1] = 0.1f; }),
+        ofVolume([](Volume& v) { v.law = VolumeLaw::Density; }),
+        ofVolume([](Volume& v) { v.medium.sigmaA.z = 0.1f; }),
+        ofVolume([](Volume& v) { v.transparency = 0.1f; }),
+        ofVolume([](Volume& v) { v.cutoff = 0.1f; }),
+        ofVolume([](Volume& v) { v.sampleRatio = 0.1f; }),
+        ofVolume([](Volume& v) { v.sampleLength = 0.1f; }),
+        ofVolume([](Volume& v) { v.lit = true; }),
+        ofVolume([](Volume& v) { v.tint.x = 0.1f; }),
         [](Scene& s) { s.meshes.push_back(s.meshes[0]); },
         [](Scene& s) { s.instances.push_back(s.instances[0]); },
         [](Scene& s) { s.lights.push_back(s.lights[0]); },

@@ -4,11 +4,13 @@
 
 #include "osgRayTrace/bridge/changes/NodeHashes.h"
 #include "osgRayTrace/bridge/changes/StateHash.h"
+#include "osgRayTrace/bridge/common/LibraryName.h"
 #include "osgRayTrace/bridge/geometry/BufferContents.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
+#include "osgRayTrace/bridge/graph/VolumeTiles.h"
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
@@ -76,7 +78,18 @@ public:
         enter(node);
     }
 
-    void apply(osg::Group& node) override { enter(node); }
+    void apply(osg::Group& node) override
+    {
+        const auto* tile = isFrom(&node, "osgVolume")
+                               ? dynamic_cast<const osgVolume::VolumeTile*>(&node)
+                               : nullptr;
+        if (tile)
+        {
+            addPlace();
+            _hasher.add(volumeHash(*tile));
+        }
+        enter(node);
+    }
 
     void apply(osg::LightSource& node) override
     {
@@ -306,7 +319,7 @@ bool hasSpecialNodes(osg::Node& node)
         {
             found = found || dynamic_cast<AreaLight*>(&visited) ||
                     dynamic_cast<EnvironmentLight*>(&visited) ||
-                    dynamic_cast<MediumVolume*>(&visited);
+                    dynamic_cast<MediumVolume*>(&visited) || isFrom(&visited, "osgVolume");
             if (!found) traverse(visited);
         }
         void apply(osg::LightSource&) override { found = true; }

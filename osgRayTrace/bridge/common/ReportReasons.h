@@ -43,6 +43,7 @@ constexpr ReportReason kReportReasons[] = {
     {"converted.point", "points, traced as spheres"},
     {"converted.line", "line segments, traced as capsules"},
     {"converted.culled", "uses of drawables that a cull traversal places or gives their state"},
+    {"converted.volume", "osgVolume's tiles"},
     {"converted.light", "lights of the scene"},
     {"converted.area-light", "area lights among them"},
     {"converted.environment-light", "the environment light"},
@@ -74,7 +75,8 @@ constexpr ReportReason kReportReasons[] = {
     {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
     {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
     {"rasterized.view-mask", "drawables that the node masks of some views hide"},
-    {"rasterized.volume", "osgVolume's volumes"},
+    {"rasterized.volume",
+     "osgVolume's volumes with a projection, an isosurface, a hull or another technique"},
 
     {"traced.proxy", "uses of surfaces that OSG draws, traced for all rays but the camera's"},
 
@@ -96,7 +98,7 @@ constexpr ReportReason kReportReasons[] = {
     {"not-traced.projection", "Projection nodes"},
     {"not-traced.render-to-texture-camera", "cameras that draw into a texture or an image"},
     {"not-traced.text", "osgText's texts"},
-    {"not-traced.volume", "osgVolume's volumes, without OpenGL"},
+    {"not-traced.volume", "osgVolume's volumes that OSG would draw, without OpenGL"},
 
     {"approximated.absolute-texgen", "TexGenNodes of eye space, without a view"},
     {"approximated.absolute-transform", "transforms of eye space, without a view"},
@@ -106,6 +108,8 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.coat-normal",
      "clear coats of thin walls, which have the bumps of the wall's normal map"},
     {"approximated.color-mask", "drawables with a colour mask"},
+    {"approximated.volume-light",
+     "osgVolume's tiles with a LightingProperty, whose paths show them unlit"},
     {"approximated.cull-traversal",
      "nodes that may draw in cull, without a viewer: their cull traversal is not run"},
     {"approximated.depth-range", "drawables whose depth range has no extent, at their own depth"},
@@ -155,6 +159,7 @@ constexpr ReportReason kReportReasons[] = {
     {"repaired.texture-coordinate", "texture coordinates that are missing or not finite: 0",
      "texture coordinates that are missing or not finite, replaced by 0"},
 
+    {"repaired.voxel", "values of osgVolume's images that are not finite: 0; or above 1e12"},
     {"repaired.environment-negative", "pixels of an environment below 0"},
     {"repaired.environment-not-finite", "pixels of an environment that are NaN or infinite"},
     {"repaired.environment-scale",
@@ -174,6 +179,7 @@ constexpr ReportReason kReportReasons[] = {
 
     {"skipped.area-light", "area lights without an area, or not finite"},
     {"skipped.clip-plane", "clip planes that are not finite, or of a number above 7"},
+    {"skipped.volume", "osgVolume's tiles without an image, a place or room"},
     {"skipped.degenerate", "triangles without an area"},
     {"skipped.medium-volume", "MediumVolumes without a medium, and all but one of a scene"},
     {"skipped.environment-light", "environment lights without an image, or beside another one"},

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialList.h"
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/convert/ClippedUse.h"
+#include "osgRayTrace/bridge/appearance/textures/VolumeImages.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
@@ -32,6 +33,7 @@ struct ConversionCaches
     GeometryCache geometries;
     TextureConverter textures;
     EnvironmentConverter environment;
+    VolumeImages volumes;
     struct Quad
     {
         std::shared_ptr<const Mesh> mesh;

@@ -30,6 +30,18 @@ LengthCounts lengthsOf(const CollectedGraph& graph)
             lengths.add(std::max({std::fabs(q.x()), std::fabs(q.y()), std::fabs(q.z())}));
         }
     }
+    for (const CollectedTile& source : graph.lights.tiles)
+    {
+        const osgVolume::Locator* locator = source.tile->getLocator();
+        if (!locator && source.tile->getLayer()) locator = source.tile->getLayer()->getLocator();
+        const osg::Matrixd engineFromCube =
+            locator ? locator->getTransform() * source.engineFromLocal : source.engineFromLocal;
+        for (const double end : {0.0, 1.0})
+        {
+            const osg::Vec3d p = osg::Vec3d(end, end, end) * engineFromCube;
+            lengths.add(std::max({std::fabs(p.x()), std::fabs(p.y()), std::fabs(p.z())}));
+        }
+    }
     return lengths;
 }
 
@@ -46,6 +58,8 @@ void applyUnit(double unit, CollectedGraph& graph)
         light.engineFromLocal.postMult(scale);
     for (CollectedVolume& volume : graph.lights.volumes)
         volume.engineFromLocal.postMult(scale);
+    for (CollectedTile& tile : graph.lights.tiles)
+        tile.engineFromLocal.postMult(scale);
     for (PlacedTexGen& texGen : graph.texGens)
         texGen.engineFromLocal.postMult(scale);
     graph.clipPlanes.applyUnit(unit);

@@ -29,6 +29,8 @@ bool isLinear(const CollectedGraph& graph, RayTraceSettings::ColorRule rule)
     if (!graph.lights.areaLights.empty() || !graph.lights.environments.empty() ||
         !graph.lights.volumes.empty())
         return true;
+    for (const CollectedTile& tile : graph.lights.tiles)
+        if (tile.material) return true;
     return anyUse(graph, [](const GraphState& state)
                   { return state.attributes[kPhysicalMaterialSlot] != nullptr; });
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 
+#include "osgRayTrace/bridge/convert/SceneVolumes.h"
+
 #include "osgRayTrace/bridge/appearance/lights/EnvironmentImages.h"
 #include "osgRayTrace/bridge/appearance/lights/LightConverter.h"
 #include "osgRayTrace/bridge/appearance/materials/MediumConversion.h"
@@ -211,6 +213,7 @@ void setLights(Scene& scene, const ConversionInput& input, const LightSources& s
     addNumbered(scene, input, sources.lights, report);
     addEnvironment(scene, sources.environments, caches.environment, report);
     setAtmosphere(scene, sources.volumes, report);
+    setVolumes(scene, sources.tiles, caches.volumes, report);
 }
 
 uint64_t viewerLights(const ConversionCounts& counts)

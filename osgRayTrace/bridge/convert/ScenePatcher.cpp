@@ -167,6 +167,7 @@ bool ScenePatcher::relight()
         return refuse(ConversionCause::LightReport, {});
     _changed |= stampLights(_scene->lights, _last.lights, _now);
     _changed |= !sameAtmosphere(*_scene, _last);
+    _changed |= stampVolumes(_scene->volumes, _last.volumes, _now);
     if (!anyShines(_last.lights) && !anyShines(_scene->lights)) return true;
     const std::size_t count = std::min(_last.instances.size(), _scene->instances.size());
     for (std::size_t i = 0; i < count; ++i)

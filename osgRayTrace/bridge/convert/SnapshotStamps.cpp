@@ -75,6 +75,11 @@ bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous,
                        [](const Light& a, const Light& b) { return same(a, b); });
 }
 
+bool stampVolumes(std::vector<Volume>& volumes, const std::vector<Volume>& previous, Stamp now)
+{
+    return !stampParts(volumes, previous, now, sameVolume);
+}
+
 std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
                                           const std::shared_ptr<const Scene>& previous, Stamp now)
 {
@@ -88,6 +93,7 @@ std::shared_ptr<const Scene> stampChanges(std::shared_ptr<Scene> scene,
     unchanged &= stampParts(scene->materials, old.materials, now, sameValue);
     unchanged &= stampParts(scene->lights, old.lights, now, sameValue);
     unchanged &= stampParts(scene->instances, old.instances, now, sameInstance);
+    unchanged &= stampParts(scene->volumes, old.volumes, now, sameVolume);
     unchanged &= scene->meshes == old.meshes && scene->textures == old.textures;
     unchanged &= scene->origin == old.origin && scene->unit == old.unit &&
                  scene->ambient == old.ambient && scene->background == old.background &&

@@ -22,4 +22,8 @@ bool stampLights(std::vector<Light>& lights, const std::vector<Light>& previous,
 /// Returns whether the same medium fills both scenes.
 bool sameAtmosphere(const Scene& a, const Scene& b);
 
+/// Gives volumes that have changed the stamp `now`, and the others their old ones. Returns whether
+/// some have changed.
+bool stampVolumes(std::vector<Volume>& volumes, const std::vector<Volume>& previous, Stamp now);
+
 } // namespace osgRayTrace::engine

@@ -131,8 +131,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
     const LightSources& lights = graph.lights;
     const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
                        lights.environments.empty() && lights.volumes.empty() &&
-                       graph.rasterized.empty() && !graph.paged && graph.cullOutcomes.empty() &&
-                       report.counts().empty();
+                       lights.tiles.empty() && graph.rasterized.empty() && !graph.paged &&
+                       graph.cullOutcomes.empty() && report.counts().empty();
     if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
     uint64_t vertices = 0;

@@ -14,10 +14,12 @@
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
 #include <osgRayTrace/MediumVolume>
+#include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/Geometry>
 #include <osg/LightSource>
 #include <osg/Matrixd>
+#include <osgVolume/VolumeTile>
 
 #include <algorithm>
 #include <cstdint>
@@ -95,6 +97,16 @@ struct CollectedVolume
     std::string path;
 };
 
+/// A tile of osgVolume that is traced.
+struct CollectedTile
+{
+    osg::ref_ptr<const osgVolume::VolumeTile> tile;
+    osg::Matrixd engineFromLocal;
+    std::string path;
+    osg::ref_ptr<const PhysicalMaterial> material; ///< of its state; null: there is none
+    osg::Vec4 diffuse{1.0f, 1.0f, 1.0f, 1.0f};     ///< of the OpenGL material of its own state
+};
+
 /// The lights stand in the order of the traversal.
 struct LightSources
 {
@@ -102,6 +114,7 @@ struct LightSources
     std::vector<CollectedAreaLight> areaLights;
     std::vector<CollectedEnvironment> environments;
     std::vector<CollectedVolume> volumes; ///< which are what light travels through
+    std::vector<CollectedTile> tiles;     ///< likewise
 };
 
 /// The attributes of states belong to the collector's state sets and are valid as long as the

@@ -89,6 +89,7 @@ private:
     bool collectLeaf(osg::Node& node);
     bool leavesDrawable(osg::Billboard& billboard);
     bool leavesGroup(osg::Node& node);
+    void collectVolume(osg::Group& group);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);
     bool descendTo(const osg::NodePath& path);

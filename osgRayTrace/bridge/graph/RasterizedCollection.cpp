@@ -5,8 +5,10 @@
 #include "osgRayTrace/bridge/graph/DrawHint.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/UntracedParts.h"
+#include "osgRayTrace/bridge/graph/VolumeTiles.h"
 
 #include <osg/Billboard>
+#include <osg/Material>
 #include <osg/OccluderNode>
 
 #include <algorithm>
@@ -53,26 +55,67 @@ bool GraphCollector::leavesDrawable(osg::Billboard& billboard)
 /// Returns whether the group is of a kit that draws its children in a way of its own, by a cull
 /// traversal only. OSG draws such a group if there is OpenGL, and proxies of an effect's children
 /// are traced. Without OpenGL the children stand for the effect, as they do if the effect is hinted
-/// to be traced; a volume is then left out.
+/// to be traced. Volumes are traced, unless a tile of theirs is one that rays cannot show; without
+/// OpenGL they are then left out.
 bool GraphCollector::leavesGroup(osg::Node& node)
 {
     const bool effect = isFrom(&node, "osgFX"), volume = isFrom(&node, "osgVolume");
     if (!effect && !volume) return false;
     if (_lightsOnly) return true;
-    if (volume) warnIfForced("a volume");
+    const char* untraced = nullptr;
+    if (volume && _leftToOsg == 0)
+    {
+        untraced = hintOf(getNodePath()) == DrawHint::Rasterize ? "it is hinted to be drawn by OSG"
+                                                                : untracedTileBelow(node);
+        if (!untraced)
+        {
+            collectVolume(*node.asGroup());
+            return true;
+        }
+        warnIfForced("a volume");
+    }
     const bool traces = effect && hintOf(getNodePath()) == DrawHint::Trace;
     if (_leftToOsg > 0 || (_input.rasterizesRest && !traces))
     {
-        if (_leftToOsg == 0) _report.count(effect ? "rasterized.effect" : "rasterized.volume");
+        if (_leftToOsg == 0 && effect) _report.count("rasterized.effect");
+        if (untraced)
+            _report.warn("rasterized.volume", "volume '" + path() + "'",
+                         std::string(untraced) + ", drawn by OSG");
         rasterize();
         ++_leftToOsg;
         if (effect) traverseGroup(*node.asGroup());
         --_leftToOsg;
         return true;
     }
-    _report.count(effect ? "approximated.effect" : "not-traced.volume");
+    if (effect) _report.count("approximated.effect");
+    if (volume)
+        _report.warn("not-traced.volume", "volume '" + path() + "'",
+                     std::string(untraced ? untraced : "OSG draws what it is in") + ", left out");
     if (effect) traverseGroup(*node.asGroup());
     return true;
+}
+
+/// Collects a tile of osgVolume, or traverses a group of tiles, all of which are traced.
+void GraphCollector::collectVolume(osg::Group& group)
+{
+    const auto* tile = dynamic_cast<const osgVolume::VolumeTile*>(&group);
+    if (!tile)
+    {
+        traverseGroup(group);
+        return;
+    }
+    recordInScene();
+    const bool pushed = pushState(group);
+    const GraphState& state = _states.states()[_states.top()];
+    CollectedTile found{tile, engineFromLocal(), path(),
+                        state.attribute<PhysicalMaterial>(kPhysicalMaterialSlot)};
+    const osg::StateSet* own = group.getStateSet();
+    const auto* material =
+        own ? dynamic_cast<const osg::Material*>(own->getAttribute(osg::StateAttribute::MATERIAL))
+            : nullptr;
+    if (material) found.diffuse = material->getDiffuse(osg::Material::FRONT);
+    _graph.lights.tiles.push_back(found);
+    if (pushed) _states.pop();
 }
 
 /// Traverses the children, whatever the group's own traverse does.

@@ -42,7 +42,8 @@ bool isSeen(const Scene& scene)
         return scene.materials[instance.material].culling != FaceCulling::FrontAndBack &&
                !scene.meshes[instance.mesh]->triangles.empty();
     };
-    return std::any_of(scene.instances.begin(), scene.instances.end(), meets) ||
+    return !scene.volumes.empty() ||
+           std::any_of(scene.instances.begin(), scene.instances.end(), meets) ||
            std::any_of(scene.lights.begin(), scene.lights.end(),
                        [](const Light& light) { return light.kind == LightKind::Environment; });
 }

@@ -25,6 +25,7 @@
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace osgRayTrace::engine
 {
@@ -51,6 +52,11 @@ public:
           _collides(number + 1 < tile.context.options.maxBounces),
           _open(block.active)
     {
+        if (_traced.traits().volumes)
+        {
+            _grids = std::make_unique<GridLanes>();
+            _segments.grids = _grids.get();
+        }
         for (int i = 0; i < kLanes; ++i)
         {
             _begin[i] = 0.0f;
@@ -69,11 +75,15 @@ private:
     };
 
     void findSegments(int step);
+    void findGrids(int i, Vec3 origin, float end);
     void addLight();
     void addPhotonBeams(int step);
     void addPhotonPoints(int i, Vec3 point, Vec3 throughput);
     End travel(int i);
+    End travelGrids(int i, const GridRay& grids);
     End collide(int i, float distance);
+    End scatterInGrids(int i, const GridRay& grids, float distance);
+    bool survives(int i, Vec3 throughput);
     End meet(int i);
     bool passBoundary(int i, End& end);
     void spawn(int i, const RayBegin& begin, Vec3 direction);
@@ -106,6 +116,7 @@ private:
     uint32_t _collisions[kLanes];
     SurfaceLanes _surface;
     MediumSegments _segments;
+    std::unique_ptr<GridLanes> _grids; ///< null: the scene has no volumes
 };
 
 /// Finds the stretches of the open paths up to the next surface.
@@ -127,13 +138,32 @@ void MediumWalk::findSegments(int step)
         _segments.numbers[i] =
             MediumNumbers(_block.seed[i], _tile.context.pathKey.index, _number, step);
         _segments.parts[i] = {};
-        if (_media[medium].isClear) continue;
+        const bool isClear = _media[medium].isClear;
+        if (isClear && !_grids) continue;
         const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
         const float end = hasHit(i) ? ray.tFar[i] : kInfinity;
-        _segments.parts[i] = _media.clipped(medium, origin, directionOf(ray, i), _begin[i], end);
+        if (!isClear)
+            _segments.parts[i] =
+                _media.clipped(medium, origin, directionOf(ray, i), _begin[i], end);
         if (_media[medium].scatters && !_segments.parts[i].isEmpty() && !_last)
             _segments.lanes |= 1u << i;
+        if (_grids) findGrids(i, origin, end);
     }
+}
+
+/// Finds the volumes on the stretch of lane i.
+void MediumWalk::findGrids(int i, Vec3 origin, float end)
+{
+    std::optional<GridRay>& grids = (*_grids)[i];
+    grids.emplace(_traced.grids(), origin, directionOf(_block.rays.ray, i), _begin[i], end);
+    if (grids->isEmpty())
+    {
+        grids.reset();
+        return;
+    }
+    grids->setAround(_media[_segments.media[i]], _segments.parts[i]);
+    _segments.parts[i] = grids->extent();
+    if (grids->scatters() && !_last) _segments.lanes |= 1u << i;
 }
 
 /// Adds the light that the stretches scatter and emit towards their rays.
@@ -146,7 +176,7 @@ void MediumWalk::addLight()
         const MediumRecord& medium = _media[_segments.media[i]];
         const RayPart& part = _segments.parts[i];
         Vec3 emitted(0.0f);
-        if (medium.emits && !part.isEmpty())
+        if (medium.emits && !part.isEmpty() && !_segments.gridsOf(i))
             emitted = laneOf(_block.throughput, i) *
                       emittedAlong(medium.emission, medium.sigmaT, part.end - part.begin);
         setLane(radiance, i, emitted);
@@ -190,6 +220,7 @@ MediumWalk::End MediumWalk::travel(int i)
 {
     const RayPart& part = _segments.parts[i];
     if (part.isEmpty()) return meet(i);
+    if (const GridRay* grids = _segments.gridsOf(i)) return travelGrids(i, *grids);
     const MediumRecord& medium = _media[_segments.media[i]];
     const float length = part.end - part.begin;
     const Vec3 throughput = laneOf(_block.throughput, i);
@@ -205,35 +236,85 @@ MediumWalk::End MediumWalk::travel(int i)
     return flight.collides ? collide(i, part.begin + flight.distance) : meet(i);
 }
 
-/// Scatters a path at a point of its ray, unless roulette ends it.
-MediumWalk::End MediumWalk::collide(int i, float distance)
+/// Takes a path along a stretch with volumes on it.
+MediumWalk::End MediumWalk::travelGrids(int i, const GridRay& grids)
 {
-    const MediumRecord& medium = _media[_segments.media[i]];
+    NumberStream numbers(_segments.numbers[i].seedOf(MediumFlight));
+    const Vec3 throughput = laneOf(_block.throughput, i);
+    const PathFlags flags = _block.flagsOf(i);
+    if (!grids.scatters() || !_collides)
+    {
+        const GridWay way = grids.way(numbers);
+        _tile.counts.cutWalks += way.cut;
+        _tile.sums.add(flags, throughput * way.emitted);
+        setLane(_block.throughput, i, throughput * way.left);
+        return way.left == Vec3(0.0f) ? End::Dies : meet(i);
+    }
+    const GridFlight flight = grids.flight(channelPmf(throughput), numbers);
+    _tile.counts.cutWalks += flight.cut;
+    _tile.sums.add(flags, throughput * flight.emitted);
+    if (flight.weight == Vec3(0.0f)) return End::Dies;
+    setLane(_block.throughput, i, throughput * flight.weight);
+    return flight.collides ? scatterInGrids(i, grids, flight.distance) : meet(i);
+}
+
+/// Scatters a path at a point of its ray by what is there, unless roulette ends it.
+MediumWalk::End MediumWalk::scatterInGrids(int i, const GridRay& grids, float distance)
+{
+    const Scatterers here = grids.scatterersAt(distance);
+    if (here.count == 0) return End::Dies;
     const MediumNumbers& numbers = _segments.numbers[i];
-    Vec3 throughput = laneOf(_block.throughput, i) * medium.sigmaS;
     const RayBlock& ray = _block.rays.ray;
     const Vec3 before = directionOf(ray, i);
     const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    if (medium.isDense) addPhotonPoints(i, point, throughput);
-    const float found = collisionProbability(_tile.context, _segments, i);
+    const Vec2 u = numbers.at(MediumPhase);
+    const Vec3 after = here.sample(before, numbers.at(MediumBoundary).x, u.x, u.y);
+    const float cosTheta = glm::dot(before, after), pdf = here.pdf(cosTheta);
+    if (!(pdf > 0.0f)) return End::Dies;
+    if (!survives(i, laneOf(_block.throughput, i) * here.scattered(cosTheta) / pdf))
+        return End::Dies;
+    _block.pdfW[i] = pdf;
+    _block.flags[i] = _block.flagsOf(i).collided().word();
+    spawn(i, {point, 0.0f}, after);
+    return End::GoesOn;
+}
+
+/// Counts a collision, and sets the throughput behind it unless the path ends there.
+bool MediumWalk::survives(int i, Vec3 throughput)
+{
     ++_tile.counts.collisions;
     _collided |= 1u << i;
-    if (_use == PhotonUse::Indirect) return End::Dies; // photons have all other light
+    if (_use == PhotonUse::Indirect) return false; // photons have all other light
     if (++_collisions[i] > kMostCollisions)
     {
         ++_tile.counts.cutWalks;
-        return End::Dies;
+        return false;
     }
     if (static_cast<uint32_t>(_number) + _collisions[i] >= kRouletteBounce)
     {
         const float wanted =
             largestOf(throughput) * _block.etaScale[i] * (1.0f / kRouletteThroughput);
         const float survival = std::min(wanted, 1.0f);
-        if (!(numbers.at(MediumFlight).y < survival)) return End::Dies;
+        if (!(_segments.numbers[i].at(MediumFlight).y < survival)) return false;
         throughput /= survival;
     }
-    if (throughput == Vec3(0.0f)) return End::Dies;
+    if (throughput == Vec3(0.0f)) return false;
     setLane(_block.throughput, i, throughput);
+    return true;
+}
+
+/// Scatters a path at a point of its ray, unless roulette ends it.
+MediumWalk::End MediumWalk::collide(int i, float distance)
+{
+    const MediumRecord& medium = _media[_segments.media[i]];
+    const MediumNumbers& numbers = _segments.numbers[i];
+    const Vec3 throughput = laneOf(_block.throughput, i) * medium.sigmaS;
+    const RayBlock& ray = _block.rays.ray;
+    const Vec3 before = directionOf(ray, i);
+    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
+    if (medium.isDense) addPhotonPoints(i, point, throughput);
+    const float found = collisionProbability(_tile.context, _segments, i);
+    if (!survives(i, throughput)) return End::Dies;
     const Vec2 u = numbers.at(MediumPhase);
     const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.

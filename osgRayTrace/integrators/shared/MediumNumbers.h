@@ -11,15 +11,17 @@ namespace osgRayTrace::engine
 /// Names the use of each two-dimensional point of a stretch.
 enum MediumDimension : uint32_t
 {
-    MediumFlight = 0,     ///< x: free flight, y: Russian roulette
-    MediumPhase = 1,      ///< direction after the collision
-    MediumBoundary = 2,   ///< direction at a smooth boundary
-    MediumChoice = 3,     ///< x: which light, y: which point on the ray
-    MediumLightPoint = 4, ///< point on the light
-    MediumSkyPoint = 5,   ///< x: which point on the ray, y: which stratum of the sky
-    MediumSky = 6,        ///< direction of the sky
-    MediumDelta = 7,      ///< x: which point on the ray; 7 + 2 k of light k
-    MediumDeltaPoint = 8, ///< point on the light; 8 + 2 k of light k
+    MediumFlight = 0,           ///< x: free flight, y: Russian roulette
+    MediumPhase = 1,            ///< direction after the collision
+    MediumBoundary = 2,         ///< direction at a smooth boundary
+    MediumChoice = 3,           ///< x: which light, y: which point on the ray
+    MediumLightPoint = 4,       ///< point on the light
+    MediumSkyPoint = 5,         ///< x: which point on the ray, y: which stratum of the sky
+    MediumSky = 6,              ///< direction of the sky
+    MediumGrid = 0x40000000,    ///< a seed: free flights through volumes
+    MediumGridWay = 0x40000001, ///< a seed: transmittance of volumes up to a point
+    MediumDelta = 7,            ///< x: which point on the ray; 7 + 2 k of light k
+    MediumDeltaPoint = 8,       ///< point on the light; 8 + 2 k of light k
 };
 
 /// The numbers of one stretch. The first stretch of each ray takes points of Sobol's sequence over
@@ -48,6 +50,12 @@ public:
         }
         const uint32_t key = hash(seed, _pass);
         return {unitFloat(key), unitFloat(hash(key + 0x9e3779b9u))};
+    }
+
+    /// Returns a seed for numbers of any count.
+    uint32_t seedOf(uint32_t dimension) const
+    {
+        return hash(dimensionSeed(_seed, _first + dimension), _pass);
     }
 
 private:

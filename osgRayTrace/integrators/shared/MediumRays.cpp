@@ -3,9 +3,11 @@
 #include "osgRayTrace/integrators/shared/MediumRays.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/media/GridRay.h"
 #include "osgRayTrace/media/Transmittance.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -34,6 +36,34 @@ void dim(LightLanes& samples, int i, Vec3 share)
     samples.tinted |= 1u << i;
 }
 
+/// Returns a seed that depends on a ray and the pass alone.
+uint32_t seedOf(const PassContext& context, const RayBlock& ray, int i)
+{
+    uint32_t seed = hash(context.key.seed, context.key.index);
+    for (const float value : {ray.originX[i], ray.originY[i], ray.originZ[i], ray.directionX[i],
+                              ray.directionY[i], ray.directionZ[i], ray.tFar[i]})
+    {
+        uint32_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        seed = hash(seed, bits);
+    }
+    return seed;
+}
+
+void dimByVolumes(const PassContext& context, LaneMask visible, LightLanes& samples)
+{
+    const RayBlock& ray = samples.shadow;
+    for (const int i : lanesIn(visible))
+    {
+        const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
+        const GridRay grids(context.traced->grids(), origin, directionOf(ray, i), ray.tNear[i],
+                            ray.tFar[i]);
+        if (grids.isEmpty()) continue;
+        NumberStream numbers(seedOf(context, ray, i));
+        dim(samples, i, grids.transmittance(ray.tNear[i], ray.tFar[i], numbers));
+    }
+}
+
 } // namespace
 
 void dimByMedia(const PassContext& context, const MediumLanes& bodies, LaneMask visible,
@@ -42,6 +72,7 @@ void dimByMedia(const PassContext& context, const MediumLanes& bodies, LaneMask 
     const TracedScene& traced = *context.traced;
     const MediumTable& media = traced.media();
     samples.tinted &= context.traced->traits().panes ? kAllLanes : 0u;
+    if (traced.traits().volumes) dimByVolumes(context, visible, samples);
     if (!media.hasInterfaces())
     {
         for (const int i : lanesIn(visible))

@@ -11,8 +11,8 @@ namespace osgRayTrace::engine
 {
 
 /// Multiplies the radiance of visible samples by what media leave on the ways of their shadow rays:
-/// exp(-sum of sigmaT length) over the stretches between the boundaries that do not block. The
-/// scene has SceneTraits::media.
+/// exp(-sum of sigmaT length) over the stretches between the boundaries that do not block, and an
+/// estimate of it for volumes. The scene has SceneTraits::media.
 void dimByMedia(const PassContext& context, const MediumLanes& bodies, LaneMask visible,
                 LightLanes& samples);
 

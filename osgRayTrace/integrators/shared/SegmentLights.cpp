@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -24,11 +25,20 @@ namespace
 /// on the point for which the tree is asked may shine on others of the stretch.
 constexpr float kEvenShare = 0.25f;
 
+/// Returns the bits of a random number, which tell the numbers of one light from another's.
+uint32_t bitsOf(float u)
+{
+    uint32_t bits;
+    std::memcpy(&bits, &u, sizeof bits);
+    return bits;
+}
+
 /// A point of a stretch with its weight: transmittance over density [length].
 struct Place
 {
     Vec3 point;
-    Vec3 weight{0.0f}; ///< 0: there is none
+    Vec3 weight{0.0f};     ///< 0: there is none
+    float distance = 0.0f; ///< along the ray
 };
 
 class Segments
@@ -67,6 +77,8 @@ private:
     bool setRectangle(int i, const RectangleLight& rectangle, float along, Vec2 on, bool twoSided,
                       float offset, float pmf, Vec3 radiance);
     Place byFlight(int i, float u) const;
+    Place pivotOf(int i, float u) const;
+    float phaseDensity(int i, float distance, float cosTheta) const;
     bool setTowards(int i, const Place& place, Vec3 light, Vec3 normal, bool twoSided, float area,
                     float offset, float pmf, Vec3 radiance);
     bool setDelta(int i, const Light& light, float weight, float along, Vec2 onLight);
@@ -90,8 +102,15 @@ Place Segments::near(int i, Vec3 light, float u, float size) const
     const Equiangular stretch(origin(i), direction(i), part.begin, part.end, light, size);
     const EquiangularSample sample = stretch.sample(u);
     if (!(sample.pdf > 0.0f) || !(sample.pdf < kInfinity)) return {};
-    const Vec3 left = transmittance(mediumOf(i).sigmaT, sample.t - part.begin);
-    return {origin(i) + direction(i) * sample.t, left / sample.pdf};
+    Vec3 left;
+    if (const GridRay* grids = _segments.gridsOf(i))
+    {
+        NumberStream numbers(_segments.numbers[i].seedOf(MediumGridWay + bitsOf(u)));
+        left = grids->transmittance(part.begin, sample.t, numbers);
+    }
+    else
+        left = transmittance(mediumOf(i).sigmaT, sample.t - part.begin);
+    return {origin(i) + direction(i) * sample.t, left / sample.pdf, sample.t};
 }
 
 /// Returns a point at which light that travels against the ray would collide.
@@ -99,9 +118,35 @@ Place Segments::byFlight(int i, float u) const
 {
     const RayPart& part = _segments.parts[i];
     const Vec3 pmf = channelPmf(laneOf(_segments.throughput, i));
+    if (const GridRay* grids = _segments.gridsOf(i))
+    {
+        NumberStream numbers(_segments.numbers[i].seedOf(MediumGrid + bitsOf(u)));
+        const GridFlight flight = grids->flight(pmf, numbers);
+        if (!flight.collides) return {};
+        return {origin(i) + direction(i) * flight.distance, flight.weight, flight.distance};
+    }
     const FreeFlight flight = sampleFlightWithin(mediumOf(i).sigmaT, part.end - part.begin, pmf, u);
     if (!flight.collides) return {};
-    return {origin(i) + direction(i) * (part.begin + flight.distance), flight.weight};
+    const float distance = part.begin + flight.distance;
+    return {origin(i) + direction(i) * distance, flight.weight, distance};
+}
+
+/// Returns the point for which the tree chooses a light. A flight through volumes may not collide;
+/// they have any point of their extent.
+Place Segments::pivotOf(int i, float u) const
+{
+    if (!_segments.gridsOf(i)) return byFlight(i, u);
+    const RayPart& part = _segments.parts[i];
+    const float distance = part.begin + u * (part.end - part.begin);
+    return {origin(i) + direction(i) * distance, Vec3(1.0f), distance};
+}
+
+/// Returns the density with which a collision at a distance would find a direction.
+float Segments::phaseDensity(int i, float distance, float cosTheta) const
+{
+    if (const GridRay* grids = _segments.gridsOf(i))
+        return grids->scatterersAt(distance).pdf(cosTheta);
+    return evalPhase(mediumOf(i).anisotropy, cosTheta);
 }
 
 /// Adds the light of the samples that the lanes see.
@@ -112,9 +157,18 @@ void Segments::finish(LaneMask visible)
     for (const int i : lanesIn(visible))
     {
         const MediumRecord& medium = mediumOf(i);
-        const float phase =
-            evalPhase(medium.anisotropy, glm::dot(direction(i), laneOf(_samples.wi, i)));
+        const float cosTheta = glm::dot(direction(i), laneOf(_samples.wi, i));
         const Vec3 light(_samples.radiance[0][i], _samples.radiance[1][i], _samples.radiance[2][i]);
+        if (const GridRay* grids = _segments.gridsOf(i))
+        {
+            const Scatterers here = grids->scatterersAt(_places[i].distance);
+            const Vec3 scattered = here.scattered(cosTheta) * _places[i].weight * light;
+            setLane(_radiance, i,
+                    laneOf(_radiance, i) +
+                        laneOf(_segments.throughput, i) * scattered * _samples.weight[i]);
+            continue;
+        }
+        const float phase = evalPhase(medium.anisotropy, cosTheta);
         const Vec3 sum = laneOf(_segments.throughput, i) * medium.sigmaS * _places[i].weight *
                          light * (phase * _samples.weight[i]);
         setLane(_radiance, i, laneOf(_radiance, i) + sum);
@@ -260,7 +314,7 @@ void Segments::addTree()
     for (const int i : lanesIn(_segments.lanes))
     {
         const Vec2 choice = numbers(i, MediumChoice), on = numbers(i, MediumLightPoint);
-        const Place pivot = byFlight(i, numbers(i, MediumDelta).x);
+        const Place pivot = pivotOf(i, numbers(i, MediumDelta).x);
         if (pivot.weight == Vec3(0.0f)) continue;
         const auto count = static_cast<float>(tree.size());
         const bool even = choice.x < kEvenShare;
@@ -329,7 +383,7 @@ void Segments::addEnvironment()
         if (mis)
         {
             const float phase =
-                evalPhase(mediumOf(i).anisotropy, glm::dot(direction(i), sample.direction));
+                phaseDensity(i, place.distance, glm::dot(direction(i), sample.direction));
             const float ratio = phase * collisionProbability(_context, _segments, i) / sample.pdfW;
             weight /= 1.0f + ratio * ratio; // the power heuristic
         }
@@ -346,6 +400,7 @@ void Segments::addEnvironment()
 
 float collisionProbability(const PassContext& context, const MediumSegments& segments, int i)
 {
+    if (segments.gridsOf(i)) return 1.0f;
     const RayPart& part = segments.parts[i];
     return collisionProbability(context.traced->media()[segments.media[i]].sigmaT,
                                 part.end - part.begin, channelPmf(laneOf(segments.throughput, i)));

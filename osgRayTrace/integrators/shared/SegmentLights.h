@@ -15,9 +15,15 @@
 #include "osgRayTrace/integrators/shared/MediumRays.h"
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 #include "osgRayTrace/integrators/shared/TileResult.h"
+#include "osgRayTrace/media/GridRay.h"
+
+#include <optional>
 
 namespace osgRayTrace::engine
 {
+
+/// The volumes on the stretches of the rays of a block; nothing where there are none.
+using GridLanes = Lanes<std::optional<GridRay>>;
 
 /// Stretches of the rays of a block within media that scatter.
 struct MediumSegments
@@ -29,11 +35,17 @@ struct MediumSegments
     MediumLanes bodies;   ///< of the stretches
     Vec3Lanes throughput; ///< of a ray at the begin of its stretch
     MediumNumbers numbers[kLanes];
-    bool eachLight = true; ///< false: one of the delta lights stands for all
-    bool withMis = true;   ///< the sky is also found by collisions, and weighted against them
+    const GridLanes* grids = nullptr; ///< null: the scene has no volumes
+    bool eachLight = true;            ///< false: one of the delta lights stands for all
+    bool withMis = true; ///< the sky is also found by collisions, and weighted against them
+
+    /// Returns the volumes on the stretch of lane i; null if there are none. The part of the lane
+    /// is then their extent, and includes what the homogeneous medium fills.
+    const GridRay* gridsOf(int i) const { return grids && (*grids)[i] ? &*(*grids)[i] : nullptr; }
 };
 
-/// Returns the probability with which a free flight through the stretch of lane i collides.
+/// Returns the probability with which a free flight through the stretch of lane i collides. Within
+/// volumes, where lights take places by flights that need not collide, it counts as 1.
 float collisionProbability(const PassContext& context, const MediumSegments& segments, int i);
 
 /// Adds to radiance what the stretches scatter of the light of all lights, times throughput. Counts

@@ -8,7 +8,10 @@
 // once.
 #include "osgRayTrace/integrators/shared/SegmentLights.h"
 #include "osgRayTrace/integrators/whitted/WhittedTile.h"
+#include "osgRayTrace/integrators/whitted/WhittedVolumes.h"
 #include "osgRayTrace/media/Transmittance.h"
+
+#include <memory>
 
 namespace osgRayTrace::engine
 {
@@ -40,19 +43,33 @@ void addAir(WhittedTile& tile, ShadingBlock& block, LaneMask active)
     segments.withMis = false;
     segments.throughput = block.weight;
     block.dimmed = 0;
+    const std::unique_ptr<GridLanes> grids =
+        context.traced->traits().volumes ? std::make_unique<GridLanes>() : nullptr;
+    segments.grids = grids.get();
+    LaneMask filled = 0; // lanes of homogeneous media alone
     for (const int i : lanesIn(active))
     {
         setLane(block.air, i, Vec3(0.0f));
         bool known;
         segments.bodies[i] = bodiesOf(media, block.surface, i, known);
         const MediumId medium = segments.media[i] = media.at(segments.bodies[i]);
-        if (!known || media[medium].isClear) continue;
+        const bool isClear = !known || media[medium].isClear;
+        if (isClear && !grids) continue;
         const bool hit = (block.surface.hits >> i) & 1u;
         const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
-        segments.parts[i] =
-            media.clipped(medium, origin, directionOf(ray, i), 0.0f, hit ? ray.tFar[i] : kInfinity);
+        const float end = hit ? ray.tFar[i] : kInfinity;
+        if (!isClear)
+            segments.parts[i] = media.clipped(medium, origin, directionOf(ray, i), 0.0f, end);
+        if (grids && findDensities(context, segments.parts[i], media[isClear ? kOutside : medium],
+                                   !isClear, origin, directionOf(ray, i), end, (*grids)[i]))
+        {
+            block.dimmed |= 1u << i;
+            if ((*grids)[i]->scatters()) segments.lanes |= 1u << i;
+            continue;
+        }
         if (segments.parts[i].isEmpty()) continue;
         block.dimmed |= 1u << i;
+        filled |= 1u << i;
         if (media[medium].scatters) segments.lanes |= 1u << i;
     }
     const int samples = segments.lanes ? lightSampleCount(context.options) : 0;
@@ -68,16 +85,19 @@ void addAir(WhittedTile& tile, ShadingBlock& block, LaneMask active)
                                                 block.depth[i], 0);
         addSegmentLights(context, tile.deltaLights, segments, tile.result.counts, light);
     }
-    for (const int i : lanesIn(block.dimmed))
+    const float share = samples > 0 ? 1.0f / static_cast<float>(samples) : 0.0f;
+    for (const int i : lanesIn(block.dimmed & ~filled))
+        dimByDensities(context, block, i, *(*grids)[i], laneOf(light, i) * share);
+    for (const int i : lanesIn(filled))
     {
         const MediumRecord& medium = media[segments.media[i]];
         const float length = segments.parts[i].end - segments.parts[i].begin;
         const Vec3 weight = laneOf(block.weight, i);
         const Vec3 emitted = weight * emittedAlong(medium.emission, medium.sigmaT, length);
-        const float share = samples > 0 ? 1.0f / static_cast<float>(samples) : 0.0f;
         setLane(block.air, i, emitted + laneOf(light, i) * share);
         setLane(block.weight, i, weight * transmittance(medium.sigmaT, length));
     }
+    if (grids) addVolumes(tile, block, active);
 }
 
 void dimSamples(const WhittedTile& tile, LaneMask visible, LightLanes& samples)

@@ -24,7 +24,9 @@ bool sameWorld(const Scene& a, const Scene& b)
                         a.background == b.background && a.displayReferred == b.displayReferred;
     const bool air = a.atmosphere == b.atmosphere ||
                      (a.atmosphere && b.atmosphere && *a.atmosphere == *b.atmosphere);
-    const bool media = air && a.fogUse == b.fogUse;
+    const bool volumes = std::equal(a.volumes.begin(), a.volumes.end(), b.volumes.begin(),
+                                    b.volumes.end(), sameVolume);
+    const bool media = air && volumes && a.fogUse == b.fogUse;
     if (hasGround(a.ground) || hasGround(b.ground)) return false; // no pixel knows its shadows
     const bool lights = std::equal(
         a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(),

@@ -1,0 +1,42 @@
+// VolumeTiles.h - what osgVolume's tiles ask for, and which of them rays can show. Layer: bridge.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Node>
+#include <osg/TransferFunction>
+#include <osgVolume/VolumeTile>
+
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+/// The properties of a tile's layer. What no property sets is nothing.
+struct VolumeProperties
+{
+    osg::ref_ptr<const osg::TransferFunction1D> transfer;
+    bool lit = false;        ///< LightingProperty
+    bool projected = false;  ///< MaximumIntensityProjectionProperty
+    bool isoSurface = false; ///< IsoSurfaceProperty
+    bool settings = false;   ///< VolumeSettings, or a transfer function of another class
+    std::optional<float> cutoff, transparency, sampleRatio, sampleDensity;
+};
+
+/// Returns the active properties of a tile with a layer.
+VolumeProperties propertiesOf(const osgVolume::VolumeTile& tile);
+
+/// Returns whether the tile is one of osgVolume::RayTracedTechnique. Others that are traced have a
+/// MultipassTechnique.
+bool isRayTraced(const osgVolume::VolumeTile& tile);
+
+/// Returns why OpenGL has to draw a tile, for messages; null: rays can show the tile.
+const char* untracedTile(const osgVolume::VolumeTile& tile);
+
+/// Returns untracedTile() of the first tile at or below a node for which it is not null. A
+/// VolumeScene draws its tiles together, so one of them decides for all.
+const char* untracedTileBelow(const osg::Node& node);
+
+/// Returns a number that changes with all that a traced tile shows, but for its place and state.
+uint64_t volumeHash(const osgVolume::VolumeTile& tile);
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,153 @@
+// GridMarch.cpp - the loops of osgVolume's shaders. Layer: media.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/media/GridMarch.h"
+
+#include "osgRayTrace/media/GridRay.h"
+#include "osgRayTrace/media/VolumeSample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The ambient and the diffuse part of the shaders' light, whatever the light's own colour is.
+constexpr float kAmbient = 0.1f, kDiffuse = 0.9f;
+
+/// The way of a ray through the image's unit cube.
+struct March
+{
+    const Volume& volume;
+    Vec3 from, to;       ///< where the ray enters and leaves
+    Vec3 lightDirection; ///< of lit volumes
+    float gradientStep;  ///< between the values of a gradient
+};
+
+/// Returns the factor of the colour at a point by the gradient of values there.
+float lightScale(const March& march, Vec3 p)
+{
+    const VolumeImage& image = *march.volume.image;
+    Vec3 gradient;
+    for (int k = 0; k < 3; ++k)
+    {
+        Vec3 d(0.0f);
+        d[k] = march.gradientStep;
+        gradient[k] = volumeValue(image, p + d) - volumeValue(image, p - d);
+    }
+    // A vector of tiny values would have no length in floats.
+    const float largest =
+        std::max(std::fabs(gradient.x), std::max(std::fabs(gradient.y), std::fabs(gradient.z)));
+    if (!(largest > 0.0f) || !(largest < kInfinity)) return 1.0f;
+    const float cosine = glm::dot(glm::normalize(gradient / largest), march.lightDirection);
+    return kAmbient + kDiffuse * std::max(0.0f, cosine);
+}
+
+/// Returns the number of steps of so many lengths, within bounds.
+int stepCount(float length, float step, int most)
+{
+    const float count = std::ceil(length / step);
+    return count >= 2.0f ? static_cast<int>(std::min(count, static_cast<float>(most))) : 2;
+}
+
+/// Front to back, one step a cell and ratio.
+void marchCells(March march, MarchedVolume& result)
+{
+    const Volume& volume = march.volume;
+    const VolumeImage& image = *volume.image;
+    const Vec3 cell = 1.0f / Vec3(Vec3d(image.width, image.height, image.depth));
+    const float smallest = std::min(cell.x, std::min(cell.y, cell.z));
+    constexpr int kMostSteps = 8192;
+    const int count = stepCount(glm::length(march.to - march.from),
+                                smallest / std::max(volume.sampleRatio, 1e-3f), kMostSteps);
+    const Vec3 step = (march.to - march.from) / static_cast<float>(count - 1);
+    const float scale = std::min(1.0f, 1.73f * glm::length(step) / glm::length(cell));
+    march.gradientStep = glm::length(step);
+    float left = 1.0f;
+    constexpr float kCutoff = 1.0f / 256.0f;
+    Vec3 p = march.from, sum(0.0f);
+    int done = 0;
+    for (; done < count && left >= kCutoff; ++done, p += step)
+    {
+        const VolumePoint point = volumePoint(volume, p);
+        const float alpha = std::clamp(point.opacity * volume.transparency, 0.0f, 1.0f);
+        if (!(alpha > 0.0f)) continue;
+        const float behind = left * std::pow(1.0f - alpha, scale);
+        const Vec3 color = volume.lit ? point.color * lightScale(march, p) : point.color;
+        sum += color * (left - behind);
+        left = behind;
+    }
+    result.opacity = done < count ? 1.0f : std::clamp(1.0f - left, 0.0f, 1.0f);
+    result.color = sum * result.opacity; // the shader blends the sum by its opacity once more
+}
+
+/// Back to front, one step a sample length.
+void marchSamples(March march, MarchedVolume& result)
+{
+    const Volume& volume = march.volume;
+    constexpr int kMostSteps = 2048;
+    const int count = stepCount(glm::length(march.to - march.from),
+                                std::max(volume.sampleLength, 1e-6f), kMostSteps);
+    const Vec3 step = (march.from - march.to) / static_cast<float>(count - 1);
+    march.gradientStep = 1.0f / 512.0f;
+    Vec3 p = march.to, color(0.0f);
+    float sum = 0.0f;
+    for (int k = 0; k < count; ++k, p += step)
+    {
+        const Voxel voxel = voxelAt(*volume.image, p);
+        Vec4 here(voxel.color, voxel.value);
+        if (!volume.transfer.empty()) here = transferred(volume, voxel.value);
+        if (volume.lit) here = Vec4(Vec3(here) * lightScale(march, p), here.w);
+        here.w = std::clamp(here.w, 0.0f, 1.0f); // as in textures of OpenGL
+        const float alpha = std::clamp(here.w * volume.transparency, 0.0f, 1.0f);
+        if (alpha > volume.cutoff)
+        {
+            color = color * (1.0f - alpha) + Vec3(here) * alpha;
+            sum += alpha;
+        }
+        if (sum < here.w)
+        {
+            color = Vec3(here);
+            sum = here.w;
+        }
+    }
+    const float opacity = std::min(sum * volume.transparency, 1.0f);
+    if (opacity < volume.cutoff) return;
+    result.opacity = std::max(opacity, 0.0f);
+    result.color = color * volume.tint * result.opacity;
+}
+
+} // namespace
+
+MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float begin, float end,
+                    const VolumeLight& light)
+{
+    RayPart part{begin, end};
+    clipToCube(grid.tileFromEngine, origin, direction, part);
+    clipToCube(grid.imageFromEngine, origin, direction, part);
+    MarchedVolume result;
+    if (part.isEmpty() || !(part.end < kInfinity)) return result;
+    const Vec3 exit = origin + direction * part.end;
+    March way{*grid.volume, transformPoint(grid.imageFromEngine, origin + direction * part.begin),
+              transformPoint(grid.imageFromEngine, exit), Vec3(0.0f), 0.0f};
+    if (!isFinite(way.from) || !isFinite(way.to)) return result; // the box is too small for floats
+    if (grid.volume->lit)
+    {
+        // In the space of the tile's cube, as gl_ModelViewMatrixInverse leads to.
+        const Vec3 towards = light.isFar ? grid.tileFromEngine.linear * light.direction
+                                         : transformPoint(grid.tileFromEngine, light.position) -
+                                               transformPoint(grid.tileFromEngine, exit);
+        const float length = glm::length(towards);
+        if (length > 0.0f) way.lightDirection = towards / length;
+    }
+    result.begin = part.begin;
+    if (grid.volume->law == VolumeLaw::Samples)
+        marchSamples(way, result);
+    else
+        marchCells(way, result);
+    return result;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,428 @@
+// GridRay.cpp - follows rays through the blocks of volumes. Layer: media.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/media/GridRay.h"
+
+#include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/media/VolumeSample.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// The brightest colour of a point: more would leave no floats for the light of dense volumes.
+constexpr float kBrightest = 1e6f;
+
+float largestOf(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+/// Walks through the blocks of one volume along a ray [Amanatides87].
+class BlockWalk
+{
+public:
+    void begin(const GridRecord& grid, Vec3 origin, Vec3 direction, RayPart part)
+    {
+        _grid = &grid;
+        _part = part;
+        const ValueBlocks& blocks = *grid.blocks->values;
+        const VolumeImage& image = *grid.volume->image;
+        const Vec3 size = Vec3(Vec3d(image.width, image.height, image.depth)) /
+                          static_cast<float>(ValueBlocks::kSide);
+        const Vec3 d = grid.imageFromEngine.linear * direction * size;
+        const Vec3 p = transformPoint(grid.imageFromEngine, origin + direction * part.begin) * size;
+        for (int k = 0; k < 3; ++k)
+        {
+            const int last = blocks.count[static_cast<std::size_t>(k)] - 1;
+            _at[k] = std::clamp(static_cast<int>(std::clamp(p[k], 0.0f, 1e6f)), 0, last);
+            _step[k] = d[k] > 0.0f ? 1 : -1;
+            _delta[k] = d[k] != 0.0f ? std::fabs(1.0f / d[k]) : kInfinity;
+            const float border = static_cast<float>(_at[k] + (d[k] > 0.0f ? 1 : 0));
+            _next[k] =
+                d[k] != 0.0f ? part.begin + std::max(0.0f, (border - p[k]) / d[k]) : kInfinity;
+        }
+        _isWithin = false;
+        _end = part.begin;
+        _least = _most = 0.0f;
+    }
+
+    float end() const { return _end; }
+    float least() const { return _least; }
+    float most() const { return _most; }
+
+    /// Goes on to the piece behind end(): the next block, or all that is behind the volume.
+    void advance()
+    {
+        if (!_isWithin)
+            _isWithin = true;
+        else if (_end >= _part.end || !leaveBlock())
+        {
+            _end = kInfinity;
+            _least = _most = 0.0f;
+            return;
+        }
+        const ValueBlocks& blocks = *_grid->blocks->values;
+        const std::size_t block =
+            (static_cast<std::size_t>(_at[2]) * static_cast<std::size_t>(blocks.count[1]) +
+             static_cast<std::size_t>(_at[1])) *
+                static_cast<std::size_t>(blocks.count[0]) +
+            static_cast<std::size_t>(_at[0]);
+        _least = _grid->blocks->least[block];
+        _most = _grid->blocks->most[block];
+        _end = std::min(_part.end, std::min(_next[0], std::min(_next[1], _next[2])));
+    }
+
+private:
+    /// Steps into the next block. Returns false behind the last one.
+    bool leaveBlock()
+    {
+        const int k =
+            _next[0] <= _next[1] ? (_next[0] <= _next[2] ? 0 : 2) : (_next[1] <= _next[2] ? 1 : 2);
+        _at[k] += _step[k];
+        _next[k] += _delta[k];
+        return _at[k] >= 0 && _at[k] < _grid->blocks->values->count[static_cast<std::size_t>(k)];
+    }
+
+    const GridRecord* _grid = nullptr;
+    RayPart _part;
+    int _at[3], _step[3];
+    float _next[3], _delta[3];
+    float _end = 0.0f, _least = 0.0f, _most = 0.0f;
+    bool _isWithin = false;
+};
+
+} // namespace
+
+void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part)
+{
+    const Vec3 o = transformPoint(cubeFromEngine, origin), d = cubeFromEngine.linear * direction;
+    for (int k = 0; k < 3; ++k)
+    {
+        if (d[k] == 0.0f)
+        {
+            if (!(o[k] >= 0.0f && o[k] <= 1.0f)) part.end = part.begin;
+            continue;
+        }
+        const float a = -o[k] / d[k], b = (1.0f - o[k]) / d[k];
+        part.begin = std::max(part.begin, std::min(a, b));
+        part.end = std::min(part.end, std::max(a, b));
+    }
+}
+
+Vec3 Scatterers::scattered(float cosTheta) const
+{
+    Vec3 sum(0.0f);
+    for (int i = 0; i < count; ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        sum += sigmaS[k] * evalPhase(anisotropy[k], cosTheta);
+    }
+    return sum;
+}
+
+float Scatterers::pdf(float cosTheta) const
+{
+    float sum = 0.0f, weights = 0.0f;
+    for (int i = 0; i < count; ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        const float weight = sigmaS[k].x + sigmaS[k].y + sigmaS[k].z;
+        weights += weight;
+        sum += weight * evalPhase(anisotropy[k], cosTheta);
+    }
+    return weights > 0.0f ? sum / weights : 0.0f;
+}
+
+Vec3 Scatterers::sample(Vec3 direction, float choice, float u, float v) const
+{
+    float weights = 0.0f;
+    const auto weightOf = [&](int i)
+    {
+        const Vec3& sigma = sigmaS[static_cast<std::size_t>(i)];
+        return sigma.x + sigma.y + sigma.z;
+    };
+    for (int i = 0; i < count; ++i)
+        weights += weightOf(i);
+    int chosen = 0;
+    float below = weightOf(0);
+    while (chosen + 1 < count && choice * weights >= below)
+        below += weightOf(++chosen);
+    return samplePhase(anisotropy[static_cast<std::size_t>(chosen)], direction, u, v);
+}
+
+/// The pieces of a stretch on which the majorant is constant, one after the other.
+class GridRay::Pieces
+{
+public:
+    /// glow: tentative collisions at which emission is collected where nothing is extinguished.
+    Pieces(const GridRay& ray, float begin, float end, bool glow = false)
+        : _ray(ray), _begin(begin), _last(end)
+    {
+        // A few collisions along the way, whose number does not matter for the mean.
+        constexpr float kGlowDepth = 4.0f;
+        const float extra = glow && end > begin ? kGlowDepth / (end - begin) : 0.0f;
+        if (ray._around && ray._around->emits) _aroundExtra = extra;
+        for (int i = 0; i < ray._count; ++i)
+        {
+            const auto k = static_cast<std::size_t>(i);
+            RayPart part = ray._spans[k].part;
+            part.begin = std::max(part.begin, begin);
+            part.end = std::min(part.end, end);
+            if (part.isEmpty()) continue;
+            const GridRecord& grid = (*ray._table)[ray._spans[k].grid];
+            _extras[_count] = grid.emission != Vec3(0.0f) ? extra : 0.0f;
+            _factors[_count] = ray._extinctions[k];
+            _walks[_count++].begin(grid, ray._origin, ray._direction, part);
+        }
+        _end = begin;
+    }
+
+    /// Goes on to the next piece. Returns false behind the last one.
+    bool advance()
+    {
+        _begin = _end;
+        if (!(_begin < _last)) return false;
+        _end = _last;
+        most = 0.0f;
+        least = Vec3(0.0f);
+        for (std::size_t i = 0; i < _count; ++i)
+        {
+            while (_walks[i].end() <= _begin)
+                _walks[i].advance();
+            _end = std::min(_end, _walks[i].end());
+            most += _walks[i].most() * largestOf(_factors[i]);
+            if (_walks[i].most() > 0.0f) most += _extras[i];
+            least += _walks[i].least() * _factors[i];
+        }
+        if (_ray._around)
+        {
+            const RayPart& part = _ray._aroundPart;
+            if (_begin < part.begin)
+                _end = std::min(_end, part.begin);
+            else if (_begin < part.end)
+            {
+                _end = std::min(_end, part.end);
+                most += largestOf(_ray._around->sigmaT) + _aroundExtra;
+                least += _ray._around->sigmaT;
+            }
+        }
+        return true;
+    }
+
+    float begin() const { return _begin; }
+    float end() const { return _end; }
+
+    float most = 0.0f; ///< extinction that no channel exceeds within the piece [1/length]
+    Vec3 least{0.0f};  ///< extinction that each channel has at least
+
+private:
+    const GridRay& _ray;
+    BlockWalk _walks[kMostVolumes];
+    Vec3 _factors[kMostVolumes];
+    float _extras[kMostVolumes];
+    float _aroundExtra = 0.0f;
+    std::size_t _count = 0;
+    float _begin, _last, _end = 0.0f;
+};
+
+GridRay::GridRay(const GridTable& table, Vec3 origin, Vec3 direction, float begin, float end,
+                 GridKinds kinds)
+    : _table(&table), _origin(origin), _direction(direction), _extent{end, begin}
+{
+    for (std::size_t i = 0; i < table.size(); ++i)
+    {
+        if (kinds == GridKinds::Densities && table[i].volume->law != VolumeLaw::Density) continue;
+        RayPart part{begin, end};
+        clipToCube(table[i].tileFromEngine, origin, direction, part);
+        clipToCube(table[i].imageFromEngine, origin, direction, part);
+        if (part.isEmpty() || !(part.end < kInfinity)) continue;
+        const auto k = static_cast<std::size_t>(_count++);
+        _spans[k] = {static_cast<uint32_t>(i), part};
+        _extinctions[k] = table[i].extinction(direction);
+        _extent = {std::min(_extent.begin, part.begin), std::max(_extent.end, part.end)};
+    }
+}
+
+void GridRay::setAround(const MediumRecord& medium, RayPart part)
+{
+    if (part.isEmpty() || medium.isClear) return;
+    _around = &medium;
+    _aroundPart = part;
+    _extent = {std::min(_extent.begin, part.begin), std::max(_extent.end, part.end)};
+}
+
+bool GridRay::scatters() const
+{
+    for (int i = 0; i < _count; ++i)
+        if ((*_table)[_spans[static_cast<std::size_t>(i)].grid].scatters) return true;
+    return _around && _around->scatters;
+}
+
+/// Returns the coefficients at a point of the ray. Volumes that are no densities glow: what they
+/// take from light they replace by their colour.
+GridRay::Coefficients GridRay::at(float distance, bool withEmission) const
+{
+    Coefficients sum;
+    for (int i = 0; i < _count; ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        const RayPart& part = _spans[k].part;
+        if (!(distance >= part.begin && distance <= part.end)) continue;
+        const GridRecord& grid = (*_table)[_spans[k].grid];
+        const VolumePoint point =
+            volumePoint(*grid.volume, transformPoint(grid.imageFromEngine, pointAt(distance)));
+        const float amount = amountOf(*grid.volume, point.opacity);
+        if (!(amount > 0.0f)) continue;
+        sum.sigmaT += _extinctions[k] * amount;
+        if (!withEmission) continue;
+        const bool glows = grid.volume->law != VolumeLaw::Density;
+        sum.emission += (glows ? _extinctions[k] : grid.emission) * amount *
+                        glm::clamp(point.color, 0.0f, kBrightest);
+    }
+    if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
+    {
+        sum.sigmaT += _around->sigmaT;
+        sum.emission += _around->emission;
+    }
+    return sum;
+}
+
+Scatterers GridRay::scatterersAt(float distance) const
+{
+    Scatterers scatterers;
+    for (int i = 0; i < _count; ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        const RayPart& part = _spans[k].part;
+        const GridRecord& grid = (*_table)[_spans[k].grid];
+        if (!grid.scatters || !(distance >= part.begin && distance <= part.end)) continue;
+        const VolumePoint point =
+            volumePoint(*grid.volume, transformPoint(grid.imageFromEngine, pointAt(distance)));
+        const Vec3 albedo = glm::clamp(point.color, 0.0f, 1.0f);
+        scatterers.add(grid.sigmaS * albedo * amountOf(*grid.volume, point.opacity),
+                       grid.anisotropy);
+    }
+    if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
+        scatterers.add(_around->sigmaS, _around->anisotropy);
+    return scatterers;
+}
+
+GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
+{
+    GridFlight result;
+    float u = numbers.next();
+    const int channel = chooseChannel(pmf, u);
+    Vec3 share(1.0f); // F, times a common factor
+    float depth = -std::log1p(-u);
+    int tentative = 0;
+    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    {
+        float t = piece.begin();
+        while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))
+        {
+            t += depth / piece.most;
+            if (++tentative > kMostTentative)
+            {
+                result.cut = true;
+                result.weight = Vec3(0.0f);
+                return result;
+            }
+            const Coefficients here = at(t, true);
+            const float norm = glm::dot(pmf, share);
+            result.emitted += share * here.emission / (piece.most * norm);
+            const Vec3 real = glm::min(here.sigmaT / piece.most, 1.0f);
+            if (numbers.next() < real[channel])
+            {
+                result.collides = true;
+                result.distance = t;
+                const float density = glm::dot(pmf, share * here.sigmaT);
+                result.weight = density > 0.0f ? share / density : Vec3(0.0f);
+                return result;
+            }
+            share *= Vec3(1.0f) - real;
+            share /= largestOf(share);
+            depth = -std::log1p(-numbers.next());
+        }
+        depth -= piece.most * (piece.end() - t);
+    }
+    result.distance = _extent.end;
+    result.weight = share / glm::dot(pmf, share);
+    return result;
+}
+
+GridWay GridRay::way(NumberStream& numbers) const
+{
+    GridWay result;
+    float depth = -std::log1p(-numbers.next());
+    int tentative = 0;
+    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    {
+        float t = piece.begin();
+        while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))
+        {
+            t += depth / piece.most;
+            if (++tentative > kMostTentative)
+            {
+                result.cut = true;
+                result.left = Vec3(0.0f);
+                return result;
+            }
+            const Coefficients here = at(t, true);
+            result.emitted += result.left * here.emission / piece.most;
+            result.left *= glm::max(Vec3(1.0f) - here.sigmaT / piece.most, 0.0f);
+            // Roulette once little is left, so that dense volumes end ways.
+            constexpr float kLittle = 0.02f, kSurvival = 0.25f;
+            if (largestOf(result.left) < kLittle)
+            {
+                if (!(numbers.next() < kSurvival))
+                {
+                    result.left = Vec3(0.0f);
+                    return result;
+                }
+                result.left /= kSurvival;
+            }
+            depth = -std::log1p(-numbers.next());
+        }
+        depth -= piece.most * (piece.end() - t);
+    }
+    return result;
+}
+
+Vec3 GridRay::transmittance(float begin, float end, NumberStream& numbers) const
+{
+    Vec3 left(1.0f);
+    float depth = -std::log1p(-numbers.next());
+    int tentative = 0;
+    for (Pieces piece(*this, begin, std::min(end, _extent.end)); piece.advance();)
+    {
+        float t = piece.begin();
+        left *= glm::exp(-piece.least * (piece.end() - t));
+        // What a channel has above its least extinction: the majorant of the rest.
+        const float rest = std::max(
+            0.0f, piece.most - std::min(piece.least.x, std::min(piece.least.y, piece.least.z)));
+        while (rest > 0.0f && depth < rest * (piece.end() - t))
+        {
+            t += depth / rest;
+            if (++tentative > kMostTentative) return Vec3(0.0f);
+            left *= glm::clamp(Vec3(1.0f) - (at(t, false).sigmaT - piece.least) / rest, 0.0f, 1.0f);
+            constexpr float kLittle = 0.02f, kSurvival = 0.25f;
+            if (largestOf(left) < kLittle)
+            {
+                if (!(numbers.next() < kSurvival)) return Vec3(0.0f);
+                left /= kSurvival;
+            }
+            depth = -std::log1p(-numbers.next());
+        }
+        if (largestOf(left) < 1e-30f) return Vec3(0.0f);
+        depth -= rest * (piece.end() - t);
+    }
+    return left;
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,149 @@
+// GridRay.h - a ray through volumes: free flights, transmittance and what scatters. Layer: media.
+// SPDX-License-Identifier: MIT
+//
+// Volumes have no closed form of transmittance. With a majorant m that nothing along a ray exceeds,
+// light meets tentative collisions with the density m exp(-m t), each of which is real with the
+// probability sigma / m and null otherwise [Woodcock65; Miller19, sect. 3]. The majorant is that of
+// the 8^3 voxels around, block by block, so that empty parts cost one step.
+//
+// Three channels share the tentative collisions. F is the product of what each channel does at
+// them: sigma_c / m at the real one, 1 - sigma_c / m at null ones. One channel is chosen with the
+// probability p_c and decides what each collision is, and the sample has the weight of the balance
+// heuristic over the channels, F_c / sum of p F [Miller19, sect. 5].
+#pragma once
+
+#include "osgRayTrace/media/GridTable.h"
+#include "osgRayTrace/sampling/Hash.h"
+
+#include <array>
+#include <optional>
+
+namespace osgRayTrace::engine
+{
+
+/// Independent numbers in [0,1), of which a way through a volume takes as many as it needs.
+class NumberStream
+{
+public:
+    explicit NumberStream(uint32_t seed) : _seed(seed) {}
+    float next() { return unitFloat(hash(_seed + 0x9e3779b9u * ++_count)); }
+
+private:
+    uint32_t _seed, _count = 0;
+};
+
+/// The number of tentative collisions after which a way through volumes ends: light that goes on is
+/// lost. They are more than 65 000 mean free paths of the densest block.
+constexpr int kMostTentative = 65536;
+
+/// Makes a part end where the ray enters and leaves the unit cube of a space.
+void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part);
+
+/// The part of a ray within a volume.
+struct GridSpan
+{
+    uint32_t grid = 0;
+    RayPart part;
+};
+
+/// What scatters at a point, with coefficients [1/engine unit].
+struct Scatterers
+{
+    std::array<Vec3, kMostVolumes + 1> sigmaS;
+    std::array<float, kMostVolumes + 1> anisotropy;
+    int count = 0;
+
+    void add(Vec3 sigma, float g)
+    {
+        if (sigma == Vec3(0.0f)) return;
+        sigmaS[static_cast<std::size_t>(count)] = sigma;
+        anisotropy[static_cast<std::size_t>(count++)] = g;
+    }
+
+    /// Returns the sum of sigmaS times phase function [1/(sr length)].
+    Vec3 scattered(float cosTheta) const;
+    /// Returns the density with which sample() chooses a direction [1/sr].
+    float pdf(float cosTheta) const;
+    /// Returns the direction in which light goes on. choice, u, v in [0,1).
+    Vec3 sample(Vec3 direction, float choice, float u, float v) const;
+};
+
+/// Where light collides, or that it does not.
+struct GridFlight
+{
+    bool collides = false;
+    bool cut = false;      ///< ended by kMostTentative
+    float distance = 0.0f; ///< along the ray
+    Vec3 weight{0.0f};     ///< transmittance over density [length], or over probability
+    Vec3 emitted{0.0f};    ///< radiance that was emitted on the way
+};
+
+/// What is left of light on a way, and what was added to it.
+struct GridWay
+{
+    Vec3 left{1.0f};
+    Vec3 emitted{0.0f};
+    bool cut = false; ///< ended by kMostTentative
+};
+
+/// Which volumes a ray looks at.
+enum class GridKinds
+{
+    All,
+    Densities, ///< those of VolumeLaw::Density
+};
+
+/// A stretch of a ray with all volumes on it, and the homogeneous medium around them.
+class GridRay
+{
+public:
+    /// The ray has a unit direction. What is beyond begin and end does not count.
+    GridRay(const GridTable& table, Vec3 origin, Vec3 direction, float begin, float end,
+            GridKinds kinds = GridKinds::All);
+
+    /// Adds the homogeneous medium that fills a part of the ray.
+    void setAround(const MediumRecord& medium, RayPart part);
+
+    /// Returns whether no volume is on the ray.
+    bool isEmpty() const { return _count == 0; }
+    /// Returns the part of the ray that anything fills.
+    RayPart extent() const { return _extent; }
+    bool scatters() const;
+    int count() const { return _count; }
+    const GridSpan& span(int i) const { return _spans[static_cast<std::size_t>(i)]; }
+    const GridTable& table() const { return *_table; }
+
+    /// Returns where light that travels along the ray collides. pmf: probabilities of the channels.
+    GridFlight flight(Vec3 pmf, NumberStream& numbers) const;
+
+    /// Returns what is left of light at the end, and what was emitted, without an end by chance
+    /// [ratio tracking: Novak14, eq. 8].
+    GridWay way(NumberStream& numbers) const;
+
+    /// Returns an estimate of the transmittance from begin to end, with the least extinction of
+    /// each block in closed form [residual ratio tracking: Novak14, eq. 11].
+    Vec3 transmittance(float begin, float end, NumberStream& numbers) const;
+
+    /// Returns what scatters at a distance along the ray.
+    Scatterers scatterersAt(float distance) const;
+
+private:
+    struct Coefficients
+    {
+        Vec3 sigmaT{0.0f}, emission{0.0f};
+    };
+    class Pieces;
+
+    Vec3 pointAt(float distance) const { return _origin + _direction * distance; }
+    Coefficients at(float distance, bool withEmission) const;
+
+    const GridTable* _table;
+    Vec3 _origin, _direction;
+    std::array<GridSpan, kMostVolumes> _spans;
+    std::array<Vec3, kMostVolumes> _extinctions; ///< at an amount of 1
+    int _count = 0;
+    const MediumRecord* _around = nullptr;
+    RayPart _aroundPart, _extent;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,57 @@
+// VolumeScenes.h - volumes for the tests of integrators.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/integrators/MediaScenes.h"
+
+#include <functional>
+
+namespace osgRayTrace::engine::test
+{
+
+/// Returns an image of floats whose voxels have the value that the function gives.
+inline std::shared_ptr<const VolumeImage>
+newVolumeImage(int width, int height, int depth, const std::function<float(int, int, int)>& value)
+{
+    const auto image = std::make_shared<VolumeImage>();
+    image->width = width;
+    image->height = height;
+    image->depth = depth;
+    for (int z = 0; z < depth; ++z)
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                image->floats.push_back(value(x, y, z));
+    return image;
+}
+
+/// Returns an affine map from an axis-aligned box to the unit cube.
+inline Affine cubeFromBox(Vec3 low, Vec3 high)
+{
+    Affine map;
+    const Vec3 scale = 1.0f / (high - low);
+    map.linear = Mat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z);
+    map.translation = -low * scale;
+    return map;
+}
+
+/// Returns a volume of densities in a box.
+inline Volume densityIn(Vec3 low, Vec3 high, const std::shared_ptr<const VolumeImage>& image,
+                        const Medium& medium)
+{
+    Volume volume;
+    volume.image = image;
+    volume.imageFromEngine = volume.tileFromEngine = cubeFromBox(low, high);
+    volume.law = VolumeLaw::Density;
+    volume.medium = medium;
+    return volume;
+}
+
+/// Makes a volume have one opacity and colour whatever its values are, up to its faces.
+inline void makeEven(Volume& volume, Vec4 color)
+{
+    volume.transfer = {color, color};
+    volume.transferScale = 0.0f;
+    volume.transferOffset = 0.5f;
+}
+
+} // namespace osgRayTrace::engine::test
