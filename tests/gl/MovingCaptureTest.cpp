@@ -4,6 +4,7 @@
 #include "CullView.h"
 #include "tests/Catch.h"
 
+#include <osg/LOD>
 #include <osg/LightSource>
 
 using namespace osgRayTrace;
@@ -234,4 +235,32 @@ TEST_CASE("moving captures: a rig beside what OSG draws is not drawn twice", "[g
     CHECK(view.count("rasterized.cull-callback") == 1);
     CHECK(view.count("traced.proxy") == 1);
     checkMoves(view, bend, 1);
+}
+
+TEST_CASE("moving captures: a level of detail that moves with what is captured below it",
+          "[gl][cull]")
+{
+    const osg::ref_ptr<osg::Group> pushing = new osg::Group;
+    pushing->setCullCallback(new StatePusher(unlitColor(kRed), unlitColor(kRed)));
+    pushing->addChild(plainSquare(0.7f));
+    const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->addChild(pushing, 0.0f, 1e6f);
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+    place->addChild(levels);
+    View view(place.get());
+    const auto move = [&](int step)
+    {
+        place->setMatrix(osg::Matrix::translate(0.05 * step, 0.0, 0.5));
+        view.viewer.frames(1);
+    };
+    for (int step = 0; step < 4; ++step)
+        move(step);
+    const uint64_t conversions = view.conversions();
+    for (int step = 4; step < 9; ++step)
+        move(step);
+    CHECK(view.conversions() == conversions);
+    checkPicture(view);
+    pushing->getChild(0)->setNodeMask(0); // it must still be seen to change
+    view.viewer.frames(2);
+    CHECK(view.count("converted.culled") == 0);
 }

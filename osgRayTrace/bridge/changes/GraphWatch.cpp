@@ -264,7 +264,7 @@ bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
     const bool isWithOthers = isFollowed(node);
     if (isWithOthers && _plain.viewMasks.empty() && node.hint == hintHash(*node.node)) return true;
     UntrackedNode& untracked = _graph.untrackedNodes[node.item];
-    PathBudget budget(untracked.budget), again(untracked.budget);
+    PathBudget budget(untracked.budget);
     const uint64_t hash =
         graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, nullptr, &budget);
     if (hash == node.hash) return true;
@@ -277,14 +277,36 @@ bool GraphWatch::isUntrackedAsItWas(WatchedNode& node)
             return true;
         }
     }
+    const bool same = isContentAsItWas(node);
+    if (same) node.hash = hash;
+    return same;
+}
+
+/// Returns whether the values of an untracked node are unchanged, and the places of what nobody
+/// else follows.
+bool GraphWatch::isContentAsItWas(WatchedNode& node)
+{
+    UntrackedNode& untracked = _graph.untrackedNodes[node.item];
+    PathBudget budget(untracked.budget);
     if (!untracked.versions) untracked.versions = std::make_unique<BufferVersions>();
     const uint64_t contents =
         graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, untracked.versions.get(),
-                  &again, _converted ? &_converted->captured : nullptr);
+                  &budget, _converted ? &_converted->captured : nullptr);
     const bool same = untracked.contents == contents;
     untracked.contents = contents;
-    if (same) node.hash = hash;
     return same;
+}
+
+/// Returns whether nothing that is in the scene has moved with an untracked node, apart from what
+/// others follow below it.
+bool GraphWatch::movesWithOthers(WatchedNode& node)
+{
+    if (isFollowed(node) || isOutOfScene(node)) return true;
+    if (!_converted || _converted->captured.empty() || !isContentAsItWas(node)) return false;
+    UntrackedNode& untracked = _graph.untrackedNodes[node.item];
+    PathBudget budget(untracked.budget);
+    node.hash = graphHash(*node.node, _plain, untracked.sceneFromLocal, nullptr, nullptr, &budget);
+    return true;
 }
 
 /// Returns false if the nodes that follow may be gone, and the watch cannot tell which.

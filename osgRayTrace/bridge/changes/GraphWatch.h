@@ -64,6 +64,8 @@ private:
     bool lookAtNodes(GraphChanges& changes);
     bool isAsItWas(WatchedNode& node);
     bool isUntrackedAsItWas(WatchedNode& node);
+    bool isContentAsItWas(WatchedNode& node);
+    bool movesWithOthers(WatchedNode& node);
     bool isFollowed(const WatchedNode& node) const;
     bool isOutOfScene(const WatchedNode& node) const;
     bool redo(uint32_t index, GraphChanges& changes);

@@ -160,7 +160,7 @@ void GraphWatch::findChanged(GraphChanges& changes)
         if (moved && node.kind == NodeKind::Untracked)
         {
             _graph.untrackedNodes[node.item].sceneFromLocal = matrixOf(node.place);
-            if (!isFollowed(node) && !isOutOfScene(node))
+            if (!movesWithOthers(node))
                 mustRecord(changes, ConversionCause::MovedSpecial,
                            _graph.places[_graph.outermostMoved(node.place)].node);
         }
