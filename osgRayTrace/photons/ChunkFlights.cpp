@@ -146,7 +146,7 @@ void ChunkTracer::storePoint(const PhotonPathBlock& block, const Flights& flight
     const float kept = std::min(1.0f, kSurePoints / static_cast<float>(step + 1));
     if (kept < 1.0f && !(flightNumbers(block.photon[i], flights.bounce, step, FlightKept).y < kept))
         return;
-    const VolumePoint point{at, laneOf(block.direction, i), power / kept, flights.within[i], edges};
+    const PhotonPoint point{at, laneOf(block.direction, i), power / kept, flights.within[i], edges};
     if (isFinite(point.power) && isFinite(at))
         _chunk.points.push_back(point);
     else

@@ -47,7 +47,7 @@ struct PhotonChunk
 {
     std::vector<Photon> photons;
     std::vector<PhotonBeam> beams;
-    std::vector<VolumePoint> points;
+    std::vector<PhotonPoint> points;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;

@@ -28,11 +28,11 @@ LaneMask nodesAround(const BoxTree::Node& node, PlainVec3 centre, float radius)
 
 } // namespace
 
-PointMap::PointMap(const std::vector<VolumePoint>& points)
+PointMap::PointMap(const std::vector<PhotonPoint>& points)
 {
     std::vector<ItemBox> boxes;
     boxes.reserve(points.size());
-    for (const VolumePoint& point : points)
+    for (const PhotonPoint& point : points)
         boxes.push_back({point.position, point.position});
     std::vector<uint32_t> order;
     _tree = BoxTree(boxes, order);
@@ -51,7 +51,7 @@ Vec3 PointMap::gather(const PointQuery& query) const
                 {
                     for (std::size_t k = first; k < first + count; ++k)
                     {
-                        const VolumePoint& point = _points[k];
+                        const PhotonPoint& point = _points[k];
                         const Vec3 off = point.position - query.position;
                         if (!(glm::dot(off, off) < radius2)) continue;
                         if (point.medium != query.medium || point.edges > query.mostEdges) continue;

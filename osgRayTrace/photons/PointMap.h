@@ -21,7 +21,7 @@ namespace osgRayTrace::engine
 {
 
 /// Holds a photon at a collision.
-struct VolumePoint
+struct PhotonPoint
 {
     Vec3 position{0.0f};
     Vec3 direction{0.0f}; ///< unit, the way of the light before the collision
@@ -46,16 +46,16 @@ class PointMap
 {
 public:
     PointMap() = default;
-    explicit PointMap(const std::vector<VolumePoint>& points);
+    explicit PointMap(const std::vector<PhotonPoint>& points);
 
     std::size_t size() const { return _points.size(); }
-    std::size_t bytes() const { return _points.size() * sizeof(VolumePoint) + _tree.bytes(); }
+    std::size_t bytes() const { return _points.size() * sizeof(PhotonPoint) + _tree.bytes(); }
 
     /// Returns the scattered radiance over sigmaS, along the query's direction.
     Vec3 gather(const PointQuery& query) const;
 
 private:
-    std::vector<VolumePoint> _points; ///< in the order of the tree
+    std::vector<PhotonPoint> _points; ///< in the order of the tree
     BoxTree _tree;
 };
 

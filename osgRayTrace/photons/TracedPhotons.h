@@ -33,7 +33,7 @@ struct TracedPhotons
 {
     std::vector<Photon> photons;
     std::vector<PhotonBeam> beams;   ///< of the first photons, in media that are not dense
-    std::vector<VolumePoint> points; ///< in dense media
+    std::vector<PhotonPoint> points; ///< in dense media
     uint64_t rays = 0;
     uint64_t cutWalks = 0;         ///< photons that ended within a medium: see kMostCollisions
     uint64_t dropped = 0;          ///< photons left out because their power is not finite

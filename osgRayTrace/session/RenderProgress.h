@@ -60,7 +60,8 @@ struct StopRule
 enum class MediumNote : uint8_t
 {
     None,
-    PathsInstead, ///< photons for all light were asked for, and some medium emits
+    PathsInstead, ///< photons were asked for, and there are volumes, or all light and a medium
+                  ///< emits
     SingleOnly,   ///< Whitted's integrator has single scattering alone
 };
 

@@ -321,6 +321,26 @@ TEST_CASE("volumes: the same bits for any number of threads", "[integrators][vol
           IntegratorKind::Path);
 }
 
+TEST_CASE("volumes: paths take the place of photons", "[integrators][volumes]")
+{
+    SceneBuilder builder = cornellBox();
+    builder.scene->materials.back().transmission = 1.0f; // a caster of caustics
+    builder.scene->volumes.push_back(
+        densityIn({100, 100, 100}, {400, 400, 400}, clumps(24), mediumOf(0.02f, 0.9f, 0.2f)));
+    const auto traced = builder.build();
+    const View view = cornellView(16, 16);
+    const auto wanted = {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics};
+    for (const IntegratorKind kind : wanted)
+    {
+        const Picture picture = render(traced, view, optionsOf(kind), 1);
+        CHECK(picture.progress.integrator == IntegratorKind::Path);
+        CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
+    }
+    const Picture picture = render(traced, view, optionsOf(IntegratorKind::Automatic), 1);
+    CHECK(picture.progress.integrator == IntegratorKind::Path);
+    CHECK(picture.progress.mediumNote == MediumNote::None);
+}
+
 TEST_CASE("volumes: edits redo blocks alone, and those that serve are taken over",
           "[integrators][volumes]")
 {

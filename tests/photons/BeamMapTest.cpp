@@ -189,7 +189,7 @@ TEST_CASE("beams: rays along a beam, and beams without length, stay finite", "[p
 TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
 {
     Uniform random(4);
-    std::vector<VolumePoint> points(3000);
+    std::vector<PhotonPoint> points(3000);
     for (std::size_t k = 0; k < points.size(); ++k)
         points[k] = {Vec3(random(), random(), random()), randomDirection(random),
                      Vec3(random(), random(), random()), MediumId(k % 3), uint32_t(k % 5)};
@@ -204,7 +204,7 @@ TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
         query.medium = 1;
         query.mostEdges = 3;
         Vec3d expected(0.0);
-        for (const VolumePoint& p : points)
+        for (const PhotonPoint& p : points)
         {
             const Vec3 off = p.position - query.position;
             if (p.medium != 1 || p.edges > 3) continue;
@@ -279,10 +279,10 @@ TEST_CASE("points: errors fall with the power -4/7 of the passes", "[photons][st
             query.towards = Vec3(0, 0, 1);
             query.mostEdges = 9;
         }
-        std::vector<VolumePoint> points(kPoints);
+        std::vector<PhotonPoint> points(kPoints);
         for (int pass = 0, at = 0; pass < kCounts[6]; ++pass)
         {
-            for (VolumePoint& point : points)
+            for (PhotonPoint& point : points)
             {
                 // A flight in a medium of extinction 1: its power over the density of its end is 1.
                 const Vec3 d = randomDirection(random);
@@ -293,7 +293,7 @@ TEST_CASE("points: errors fall with the power -4/7 of the passes", "[photons][st
             for (int i = 0; i < kLanes; ++i)
             {
                 double sum = 0.0;
-                for (const VolumePoint& point : points)
+                for (const PhotonPoint& point : points)
                 {
                     const Vec3 off = point.position - queries[i].position;
                     sum += glm::dot(off, off) < radius * radius ? double(point.power.x) : 0.0;
