@@ -30,7 +30,7 @@ struct Scene
     std::vector<Light> lights;
     std::shared_ptr<const Atmosphere> atmosphere; ///< null: see atmosphereOf
     FogUse fogUse = FogUse::Depth;
-    float ground = kNoGround; ///< height of the plane that shows shadows alone [engine units]
+    float ground = kNoGround;    ///< height of the plane that shows shadows alone [engine units]
     std::vector<Volume> volumes; ///< at most kMostVolumes
 
     Vec3 ambient{0.2f};    ///< LightModel ambient, for FixedFunction materials
