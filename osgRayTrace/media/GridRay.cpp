@@ -40,7 +40,7 @@ public:
         for (int k = 0; k < 3; ++k)
         {
             const int last = blocks.count[static_cast<std::size_t>(k)] - 1;
-            _at[k] = std::clamp(static_cast<int>(std::clamp(p[k], 0.0f, 1e6f)), 0, last);
+            _at[k] = p[k] > 0.0f ? static_cast<int>(std::min(p[k], static_cast<float>(last))) : 0;
             _step[k] = d[k] > 0.0f ? 1 : -1;
             _delta[k] = d[k] != 0.0f ? std::fabs(1.0f / d[k]) : kInfinity;
             const float border = static_cast<float>(_at[k] + (d[k] > 0.0f ? 1 : 0));
@@ -282,8 +282,9 @@ GridRay::Coefficients GridRay::at(float distance, bool withEmission) const
         sum.sigmaT += _extinctions[k] * amount;
         if (!withEmission) continue;
         const bool glows = grid.volume->law != VolumeLaw::Density;
+        const Vec3 tint = grid.volume->law == VolumeLaw::Samples ? grid.volume->tint : Vec3(1.0f);
         sum.emission += (glows ? _extinctions[k] : grid.emission) * amount *
-                        glm::clamp(point.color, 0.0f, kBrightest);
+                        glm::clamp(point.color * tint, 0.0f, kBrightest);
     }
     if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
     {

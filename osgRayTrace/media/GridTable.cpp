@@ -3,6 +3,7 @@
 #include "osgRayTrace/media/GridTable.h"
 
 #include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/scene/VolumeLimits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,11 +31,17 @@ Vec3 usable(Vec3 coefficient, float largest)
     return result;
 }
 
+bool isSmall(const Vec3& v)
+{
+    return std::fabs(v.x) <= kLargestVolumeMap && std::fabs(v.y) <= kLargestVolumeMap &&
+           std::fabs(v.z) <= kLargestVolumeMap; // false for NaN
+}
+
 bool isUsable(const Affine& m)
 {
     const double volume = glm::determinant(glm::dmat3(m.linear));
-    return isFinite(m.translation) && isFinite(m.linear[0]) && isFinite(m.linear[1]) &&
-           isFinite(m.linear[2]) && std::isfinite(volume) && volume != 0.0f;
+    return isSmall(m.translation) && isSmall(m.linear[0]) && isSmall(m.linear[1]) &&
+           isSmall(m.linear[2]) && std::isfinite(volume) && volume != 0.0;
 }
 
 GridRecord recordOf(const Volume& volume, float unit)

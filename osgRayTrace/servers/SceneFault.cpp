@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/servers/SceneFault.h"
 
+#include "osgRayTrace/scene/VolumeLimits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +35,17 @@ bool isUsable(const Medium& m)
     { return isFinitePosition(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; };
     return isSum(m.sigmaA) && isSum(m.sigmaS) && isSum(m.emission) && m.anisotropy > -1.0f &&
            m.anisotropy < 1.0f;
+}
+
+/// Returns whether a volume is one that the library makes, but for its place.
+bool isUsable(const Volume& v)
+{
+    return v.image && isUsable(v.medium) && v.transfer.size() <= kMostTransferEntries &&
+           std::all_of(v.transfer.begin(), v.transfer.end(), isFiniteColor) &&
+           std::isfinite(v.transferScale) && std::isfinite(v.transferOffset) &&
+           std::isfinite(v.transparency) && v.transparency >= 0.0f && std::isfinite(v.cutoff) &&
+           std::isfinite(v.sampleRatio) && v.sampleRatio > 0.0f && std::isfinite(v.sampleLength) &&
+           v.sampleLength > 0.0f && isFinitePosition(v.tint);
 }
 
 /// Returns whether the texels are as many as the sizes say.
@@ -101,9 +114,9 @@ const char* environmentFault(const EnvironmentImage& image)
 
 const char* volumeFault(const VolumeImage& image)
 {
-    constexpr int kMost = 1 << 14; // along a side, so that products fit
+    const int most = std::max({image.width, image.height, image.depth});
     const bool sides = image.width > 0 && image.height > 0 && image.depth > 0 &&
-                       image.width <= kMost && image.height <= kMost && image.depth <= kMost &&
+                       most <= kMostVoxelSide && // so that products fit
                        (image.channels == 1 || image.channels == 4);
     if (!sides || image.bytes.empty() == image.floats.empty())
         return "a volume is not of the size that it says";
@@ -113,9 +126,9 @@ const char* volumeFault(const VolumeImage& image)
     if (std::max(image.bytes.size(), image.floats.size()) != values)
         return "a volume is not of the size that it says";
     return std::all_of(image.floats.begin(), image.floats.end(),
-                       [](float v) { return std::isfinite(v); })
+                       [](float v) { return std::fabs(v) <= kLargestVoxel; })
                ? nullptr
-               : "a volume has a value that is not finite";
+               : "a volume has a value that is out of range";
 }
 
 const char* sceneFault(const Scene& scene)
@@ -151,9 +164,7 @@ const char* sceneFault(const Scene& scene)
         return "the medium around the scene is out of range";
     if (scene.volumes.size() > kMostVolumes) return "a scene has too many volumes";
     for (const Volume& volume : scene.volumes)
-        if (!volume.image || !isUsable(volume.medium) ||
-            !std::all_of(volume.transfer.begin(), volume.transfer.end(), isFiniteColor))
-            return "a volume is out of range";
+        if (!isUsable(volume)) return "a volume is out of range";
     for (const Light& light : scene.lights)
     {
         const bool needsInstance = light.kind == LightKind::Mesh;

@@ -241,6 +241,19 @@ TEST_CASE("volumes: what glows shows its colour by its optical depth",
         CHECK(seen[c].agrees(color[int(c)] * (1.0 - left) + 0.5 * left, 1e-5));
         CHECK(seen[c].standardError() < 0.01);
     }
+    // An opacity of 0.2 over a fifth of the width, and a colour in front of all.
+    builder.scene->volumes[0].law = VolumeLaw::Samples;
+    builder.scene->volumes[0].sampleLength = 0.2f;
+    builder.scene->volumes[0].tint = Vec3(0.5f, 1.0f, 0.25f);
+    const auto tinted =
+        measureChannels(builder.build(), alongX(), optionsOf(IntegratorKind::Path), 16);
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+        const double shown = color[int(c)] * double(builder.scene->volumes[0].tint[int(c)]);
+        CHECK(
+            tinted[c].agrees(shown * (1.0 - std::pow(0.8, 5.0)) + 0.5 * std::pow(0.8, 5.0), 1e-5));
+    }
+    builder.scene->volumes[0] = volume;
     // Whitted's steps sum up the same colours, times the opacity as the shaders do.
     const Vec3 whitted =
         render(builder.build(), alongX(), optionsOf(IntegratorKind::Whitted), 1).mean();
@@ -338,7 +351,7 @@ TEST_CASE("volumes: paths take the place of photons", "[integrators][volumes]")
     }
     const Picture picture = render(traced, view, optionsOf(IntegratorKind::Automatic), 1);
     CHECK(picture.progress.integrator == IntegratorKind::Path);
-    CHECK(picture.progress.mediumNote == MediumNote::None);
+    CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
 }
 
 TEST_CASE("volumes: edits redo blocks alone, and those that serve are taken over",

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/geometry/MatrixMaps.h"
 #include "osgRayTrace/bridge/graph/VolumeTiles.h"
 #include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/scene/VolumeLimits.h"
 
 #include <osgRayTrace/PhysicalMaterial>
 
@@ -34,6 +35,8 @@ std::optional<Affine> cubeFromEngine(const osgVolume::Locator* locator,
     if (matrixFault(engineFromCube, kSmallestVolume)) return std::nullopt;
     const osg::Matrixd inverse = osg::Matrixd::inverse(engineFromCube);
     if (!inverse.valid() || matrixFault(inverse, kSmallestVolume)) return std::nullopt;
+    for (int k = 0; k < 16; ++k)
+        if (!(std::fabs(inverse.ptr()[k]) <= double(kLargestVolumeMap))) return std::nullopt;
     const PointMap map(inverse);
     return Affine{Mat3(Vec3(map.x), Vec3(map.y), Vec3(map.z)), Vec3(map.translation)};
 }
@@ -49,6 +52,7 @@ bool setTransfer(const osg::TransferFunction1D& source, const osgVolume::ImageLa
 {
     const osg::Image* table = source.getImage();
     if (!table || !table->data() || table->s() < 1) return false;
+    if (static_cast<std::size_t>(table->s()) > kMostTransferEntries) return false;
     for (int i = 0; i < table->s(); ++i)
     {
         const osg::Vec4 color = table->getColor(static_cast<unsigned int>(i));
@@ -86,7 +90,7 @@ const char* setLook(const CollectedTile& source, bool linear, VolumeImages& imag
 
     const VolumeProperties properties = propertiesOf(tile);
     if (properties.transfer && !setTransfer(*properties.transfer, *layer, linear, volume, repaired))
-        return "its transfer function has no entries or no extent";
+        return "its transfer function has no entries, more than 65,536 or no extent";
     volume.law = isRayTraced(tile) ? VolumeLaw::Samples : VolumeLaw::Cells;
     constexpr float kLargest = 1e6f;
     volume.transparency = usable(properties.transparency, 1.0f, 0.0f, kLargest);
@@ -94,7 +98,11 @@ const char* setLook(const CollectedTile& source, bool linear, VolumeImages& imag
     volume.sampleRatio = usable(properties.sampleRatio, 1.0f, 1e-3f, 1e3f);
     volume.sampleLength = usable(properties.sampleDensity, kDefaultSampleDensity, 1e-6f, 1.0f);
     volume.lit = properties.lit;
-    volume.tint = Vec3(source.diffuse.r(), source.diffuse.g(), source.diffuse.b());
+    for (int c = 0; c < 3; ++c)
+    {
+        const float tint = std::clamp(source.diffuse[c], 0.0f, 1.0f);
+        volume.tint[c] = linear ? linearFromSrgb(tint) : tint;
+    }
     if (source.material && source.material->getInterior())
     {
         volume.law = VolumeLaw::Density;
@@ -122,8 +130,9 @@ void setVolumes(Scene& scene, const std::vector<CollectedTile>& tiles, VolumeIma
         uint64_t repaired = 0;
         const char* fault = "its locator has no volume";
         if (tileMap && imageMap)
-            fault = setLook(source, !scene.displayReferred, images, volume, repaired);
-        if (!fault && scene.volumes.size() == kMostVolumes) fault = "the scene has 16 before it";
+            fault = scene.volumes.size() == kMostVolumes
+                        ? "the scene has 16 before it"
+                        : setLook(source, !scene.displayReferred, images, volume, repaired);
         if (fault)
         {
             report.warn("skipped.volume", name, std::string(fault) + ", skipped");

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/textures/PixelDecoder.h"
 #include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/scene/VolumeLimits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +30,6 @@ int soleChannel(const osg::Image& image)
     }
 }
 
-/// Values beyond this leave no floats for the light that they stand for.
-constexpr float kLargestValue = 1e12f;
-
 /// Returns the number of values of an image that are not finite or too large.
 uint64_t repairedValues(const osg::Image& image)
 {
@@ -44,13 +42,15 @@ uint64_t repairedValues(const osg::Image& image)
         {
             const auto* row = reinterpret_cast<const float*>(image.data(0, t, r));
             for (int i = 0; i < values; ++i)
-                count += !(std::fabs(row[i]) <= kLargestValue);
+                count += !(std::fabs(row[i]) <= kLargestVoxel);
         }
     return count;
 }
 
-template <class T> void append(const std::vector<T>& pixels, int channel, std::vector<T>& voxels)
+template <class T>
+void append(const std::vector<T>& pixels, int channel, std::vector<T>& voxels, uint64_t values)
 {
+    if (voxels.empty() && !pixels.empty()) voxels.reserve(values);
     if (channel < 0)
     {
         voxels.insert(voxels.end(), pixels.begin(), pixels.end());
@@ -86,7 +86,8 @@ VolumeImages::Result decoded(const osg::Image& source, bool linear)
     const uint64_t values = uint64_t(static_cast<unsigned int>(source.s())) *
                             static_cast<unsigned int>(source.t()) *
                             static_cast<unsigned int>(source.r()) * (channel < 0 ? 4u : 1u);
-    result.fault = "its image has more than 536,870,912 values";
+    result.fault = "its image has more than 536,870,912 values, or 16,384 along a side";
+    if (std::max({source.s(), source.t(), source.r()}) > kMostVoxelSide) return result;
     if (values > kMostVoxelValues) return result;
 
     const auto image = std::make_shared<VolumeImage>();
@@ -105,12 +106,12 @@ VolumeImages::Result decoded(const osg::Image& source, bool linear)
                         static_cast<int>(source.getPacking()), source.getRowLength());
         Texture pixels;
         if (!decodePixels(*slice, pixels)) return result;
-        append(pixels.bytes, channel, image->bytes);
-        append(pixels.floats, channel, image->floats);
+        append(pixels.bytes, channel, image->bytes, values);
+        append(pixels.floats, channel, image->floats, values);
     }
     result.repaired = repairedValues(source);
     for (float& value : image->floats)
-        value = std::isfinite(value) ? std::clamp(value, -kLargestValue, kLargestValue) : 0.0f;
+        value = std::isfinite(value) ? std::clamp(value, -kLargestVoxel, kLargestVoxel) : 0.0f;
     if (linear && image->channels == 4) decodeColors(*image);
     result.fault = nullptr;
     result.image = image;
