@@ -46,10 +46,14 @@ inline void setRelativeIor(const MediumTable& media, MediumStack bodies, MediumI
     bsdf.eta = media[behind].ior / media[media.at(bodies)].ior;
 }
 
-/// Makes a ray go on behind its hit, as if nothing were there.
+/// Makes a ray go on behind its hit, as if nothing were there. A ray may begin on the surface: what
+/// follows zero is denormal, which counts as zero while denormals are flushed, and the ray would
+/// meet the surface for ever.
 inline void goOnBehindHit(RayBlock& ray, int i, float tFar)
 {
-    ray.tNear[i] = std::nextafter(std::nextafter(ray.tFar[i], kInfinity), kInfinity);
+    constexpr float kLeast = 1e-30f;
+    const float behind = std::nextafter(std::nextafter(ray.tFar[i], kInfinity), kInfinity);
+    ray.tNear[i] = behind > kLeast ? behind : kLeast;
     ray.tFar[i] = tFar;
 }
 

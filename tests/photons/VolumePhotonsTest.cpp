@@ -19,10 +19,7 @@ struct VolumeScene
 std::vector<VolumeScene> volumeScenes()
 {
     std::vector<VolumeScene> scenes;
-    scenes.push_back({"fog", foggyBox()});
-    scenes.push_back({"coloured fog forwards", foggyBox(0.6f, Vec3(0.9f, 0.6f, 0.3f))});
-
-    scenes.push_back({"glass and mirror in fog", foggyBox()});
+    scenes.push_back({"glass and mirror in coloured fog", foggyBox(0.6f, Vec3(0.9f, 0.6f, 0.3f))});
     SceneBuilder& balls = scenes.back().builder;
     balls.add(sphereMesh({400, 250, 120}, 90.0f, 24), glass(1.5f));
     balls.add(sphereMesh({150, 430, 300}, 90.0f, 24), mirror(Vec3(0.9f)));
@@ -49,20 +46,20 @@ TEST_CASE("volume photons: agree with paths", "[photons][statistics][media]")
     for (const VolumeScene& scene : scenes)
     {
         const auto traced = scene.builder.build();
-        const View view = cornellView(16, 16);
+        const View view = cornellView(12, 12);
         RenderOptions options = optionsOf(IntegratorKind::Path, 12);
-        const Estimate path = meanOf(traced, view, options, 32);
+        const Estimate path = meanOf(traced, view, options, 48);
         for (const IntegratorKind kind :
              {IntegratorKind::Sppm, IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
         {
             options.integrator = kind;
-            options.photons = 4000;
+            options.photons = 2000;
             options.photonRadius = 4.0f;
             const Estimate photons = meanOf(traced, view, options, 8);
             const double p = welchTest(path, kRuns, photons, kRuns);
             CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
                     photons.standardError(), p, threshold);
-            CHECK(photons.standardError() < 0.035 * path.mean());
+            CHECK(photons.standardError() < 0.06 * path.mean());
             CHECK(p > threshold);
         }
     }
