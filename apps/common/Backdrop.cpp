@@ -74,6 +74,7 @@ osg::ref_ptr<osg::Geometry> backdropQuad(const Backdrop& backdrop, double aspect
     osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
     quad->setUseDisplayList(false);
     quad->setUseVertexBufferObjects(true);
+    quad->setDataVariance(osg::Object::DYNAMIC); // see fitBackdrop
     osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
     for (const osg::Vec3& corner :
          {osg::Vec3(0, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 0), osg::Vec3(1, 1, 0)})

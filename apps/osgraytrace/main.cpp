@@ -38,6 +38,7 @@ void writeMaterials(const Options& options)
 
 int runCommandLine(int argc, char** argv)
 {
+    addPluginPath(); // a backdrop may be an image of our plugins
     const std::optional<Options> options = parseOptions(argc, argv);
     if (!options) return kDone;
     if (options->listOptions)
@@ -45,7 +46,6 @@ int runCommandLine(int argc, char** argv)
         std::cout << optionTable();
         return kDone;
     }
-    addPluginPath();
     if (!options->merged.empty()) return runMerge(*options);
     if (options->names)
     {

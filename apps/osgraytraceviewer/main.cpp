@@ -254,6 +254,8 @@ int run(int argc, char** argv)
         arguments.writeErrorMessages(std::cerr);
         return kUsage;
     }
+    if (!cave.file.empty() && view.backdrop.wanted)
+        throw Failure(kUsage, "--cave excludes --background");
     const std::vector<std::string> names = modelNames(arguments);
     if (names.empty()) throw Failure(kUsage, "no MODEL given; --help shows options and keys");
     const Models models =

@@ -75,8 +75,9 @@ struct ChunkTracer::Flights
 
     const MediumTable& media;
     const int bounce;
-    FloatLanes begin;            ///< where on the ray the stretch begins
-    uint32_t steps[kLanes] = {}; ///< collisions
+    FloatLanes begin;              ///< where on the ray the stretch begins
+    uint32_t steps[kLanes] = {};   ///< collisions
+    uint32_t stretch[kLanes] = {}; ///< number of the stretch: no two have the same random numbers
     MediumId within[kLanes];
     RayPart parts[kLanes];
     SurfaceLanes surface;
@@ -91,12 +92,13 @@ struct ChunkTracer::Flights
 
 /// Returns two numbers of a stretch. The first stretch of each edge takes points of Sobol's
 /// sequence over the photons; the walk that may follow takes independent numbers.
-Vec2 ChunkTracer::flightNumbers(uint32_t photon, int bounce, uint32_t step, uint32_t use) const
+Vec2 ChunkTracer::flightNumbers(uint32_t photon, int bounce, uint32_t stretch, uint32_t use) const
 {
     constexpr uint32_t kFlight = 0x666c7974u; // tells these dimensions from all others
-    const uint32_t seed = dimension(hash(kFlight + static_cast<uint32_t>(bounce), 4 * step + use));
+    const uint32_t seed =
+        dimension(hash(kFlight + static_cast<uint32_t>(bounce), 4 * stretch + use));
     Vec2 point;
-    if (step == 0)
+    if (stretch == 0)
     {
         sobol2(photon, seed, point.x, point.y);
         return point;
@@ -116,7 +118,8 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     if (isDirect || photon >= beams || medium.isDense) return;
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSureBeams / static_cast<float>(step + 1));
-    if (kept < 1.0f && !(flightNumbers(photon, flights.bounce, step, FlightKept).x < kept)) return;
+    const Vec2 numbers = flightNumbers(photon, flights.bounce, flights.stretch[i], FlightKept);
+    if (kept < 1.0f && !(numbers.x < kept)) return;
     const RayPart& part = flights.parts[i];
     const RayBlock& ray = _rays.ray;
     PhotonBeam beam;
@@ -144,8 +147,9 @@ void ChunkTracer::storePoint(const PhotonPathBlock& block, const Flights& flight
     const uint32_t edges = edgesInMedium(block.met[i], block.late[i]);
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSurePoints / static_cast<float>(step + 1));
-    if (kept < 1.0f && !(flightNumbers(block.photon[i], flights.bounce, step, FlightKept).y < kept))
-        return;
+    const uint32_t photon = block.photon[i];
+    const Vec2 numbers = flightNumbers(photon, flights.bounce, flights.stretch[i], FlightKept);
+    if (kept < 1.0f && !(numbers.y < kept)) return;
     const PhotonPoint point{at, laneOf(block.direction, i), power / kept, flights.within[i], edges};
     if (isFinite(point.power) && isFinite(at))
         _chunk.points.push_back(point);
@@ -161,6 +165,7 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
     const MediumRecord& medium = flights.media[flights.within[i]];
     const float length = part.end - part.begin;
     const Vec3 power = laneOf(block.power, i);
+    if (!(largestOf(power) > 0.0f)) return FlightEnd::Dies; // it has underflowed
     // Caustics begin with a surface: what collides before it is left to paths.
     const bool mustArrive = flights.bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
     if (!medium.scatters || mustArrive)
@@ -170,7 +175,7 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
     }
     storeBeam(block, flights, i);
     const float u =
-        flightNumbers(block.photon[i], flights.bounce, flights.steps[i], FlightLength).x;
+        flightNumbers(block.photon[i], flights.bounce, flights.stretch[i], FlightLength).x;
     const FreeFlight flight = sampleFlight(medium.sigmaT, length, channelPmf(power), u);
     setLane(block.power, i, power * flight.weight);
     if (!flight.collides) return meet(block, flights, i);
@@ -183,7 +188,7 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
                                             float distance, float before)
 {
     const MediumRecord& medium = flights.media[flights.within[i]];
-    const uint32_t photon = block.photon[i], step = flights.steps[i];
+    const uint32_t photon = block.photon[i], stretch = flights.stretch[i];
     const bool first = flights.bounce == 0 && !((_collided >> i) & 1u);
     _collided |= 1u << i;
     block.direct[i] = 0;
@@ -194,13 +199,14 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     if (first) power *= fallenOff(block.light[i], point, distance);
     if (medium.isDense && !first) storePoint(block, flights, i, point, power);
     ++flights.steps[i];
+    ++flights.stretch[i];
     if (block.met[i] == 0)
         block.late[i] = std::min(2u, block.late[i] + 1);
     else if (block.met[i] == 1)
         block.late[i] = std::max(1u, block.late[i]);
     power *= medium.sigmaS;
     const float survival = std::min(1.0f, largestOf(power) / before);
-    if (!(flightNumbers(photon, flights.bounce, step, FlightLength).y < survival))
+    if (!(flightNumbers(photon, flights.bounce, stretch, FlightLength).y < survival))
         return FlightEnd::Dies;
     if (flights.steps[i] >= kMostFlights)
     {
@@ -208,7 +214,7 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
         return FlightEnd::Dies;
     }
     setLane(block.power, i, power / survival);
-    const Vec2 u = flightNumbers(photon, flights.bounce, step, FlightPhase);
+    const Vec2 u = flightNumbers(photon, flights.bounce, stretch, FlightPhase);
     const Vec3 after = samplePhase(medium.anisotropy, direction, u.x, u.y);
     setLane(block.direction, i, after);
     setRay(ray, i, plainOf(point), plainOf(after), 0.0f, kInfinity);
@@ -234,12 +240,13 @@ ChunkTracer::FlightEnd ChunkTracer::meet(PhotonPathBlock& block, Flights& flight
         const int bounce = (_collided >> i) & 1u ? std::max(flights.bounce, 1) : flights.bounce;
         const LaneMask lane = 1u << i;
         LaneMask passed = _inputs.culls || _inputs.shadowless
-                              ? passFaces(block, flights.surface, lane, bounce)
+                              ? passFaces(block, flights.surface, lane, bounce, flights.stretch[i])
                               : 0;
         if (!passed && _inputs.traced.traits().panes)
-            passed = passPanes(block, flights.surface, lane, bounce);
+            passed = passPanes(block, flights.surface, lane, bounce, flights.stretch[i]);
         if (!passed) return FlightEnd::Surface;
     }
+    ++flights.stretch[i];
     flights.begin[i] = _rays.ray.tFar[i];
     goOnBehindHit(_rays.ray, i, kInfinity);
     return FlightEnd::GoesOn;

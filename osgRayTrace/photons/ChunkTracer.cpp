@@ -26,6 +26,13 @@ bool storesPhotons(const Bsdf& bsdf)
     return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
 }
 
+/// Returns a number of a face. A photon that media scatter may meet a face again.
+uint32_t faceKey(uint32_t instance, uint32_t primitive, uint32_t stretch)
+{
+    const uint32_t face = hash(instance, primitive);
+    return stretch == 0 ? face : hash(face, stretch);
+}
+
 } // namespace
 
 /// Returns the surface model of a lane, which stays until the next block.
@@ -213,7 +220,7 @@ LaneMask ChunkTracer::classify(const PhotonPathBlock& block, const SurfaceLanes&
 /// that is seen. A path from the eye meets that side only, so light that leaves on the other side
 /// is part of no path: scatter() absorbs it. Returns the lanes that go on.
 LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
-                                int bounce)
+                                int bounce, uint32_t stretch)
 {
     LaneMask passed = 0;
     for (const int i : lanesIn(lanes & surface.hits))
@@ -232,7 +239,7 @@ LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surf
         }
         if (!passes) continue;
         setLane(block.power, i, 2.0f * laneOf(block.power, i));
-        const uint32_t face = hash(surface.instance[i], _rays.primitive[i]);
+        const uint32_t face = faceKey(surface.instance[i], _rays.primitive[i], stretch);
         if (hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face) & 0x80000000u)
             passed |= lane;
     }
@@ -244,7 +251,7 @@ LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surf
 /// Lets photons pass panes straight, as passPanes does for rays from the eye, of which they are no
 /// bounce: light samples take the same way. Returns the lanes that go on.
 LaneMask ChunkTracer::passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
-                                int bounce)
+                                int bounce, uint32_t stretch)
 {
     const MaterialTable& materials = _inputs.traced.materials();
     LaneMask passed = 0;
@@ -261,7 +268,8 @@ LaneMask ChunkTracer::passPanes(PhotonPathBlock& block, const SurfaceLanes& surf
         const Vec3 share = materials.pane(material, point, cosine);
         const float p = std::min(std::max(share.x, std::max(share.y, share.z)), 1.0f);
         if (!(p > 0.0f)) continue;
-        const uint32_t face = hash(surface.instance[i] + 0x70616e65u, _rays.primitive[i]);
+        const uint32_t face =
+            faceKey(surface.instance[i] + 0x70616e65u, _rays.primitive[i], stretch);
         const uint32_t key = hash(hash(dimension(bounceNumber(bounce)), block.photon[i]), face);
         const bool goesOn = p > 1.0f - 1e-6f || unitFloat(key) < p;
         const Vec3 weight = goesOn ? share / p : Vec3(1.0f / (1.0f - p));

@@ -85,10 +85,11 @@ private:
     void meetSurfaces(RayHitBlock& rays, LaneMask lanes, SurfaceLanes& surface);
     void meetBehind(LaneMask passed, SurfaceLanes& surface);
     void findSurfaces(PhotonPathBlock& block, LaneMask active, int bounce, SurfaceLanes& surface);
+    // stretch: how often the photon has set out since it left a surface.
     LaneMask passFaces(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
-                       int bounce);
+                       int bounce, uint32_t stretch = 0);
     LaneMask passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
-                       int bounce);
+                       int bounce, uint32_t stretch = 0);
     void absorb(PhotonPathBlock& block, const SurfaceLanes& surface) const;
 
     // What photons do in media is in ChunkFlights.cpp.

@@ -83,14 +83,14 @@ kill_in_job()
     kill -9 $pids
     wait $job
     local code=$?
-    echo "$1: mpirun ends with $code after $(echo "$(date +%s.%N) - $begin" | bc) s"
+    echo "$1: mpirun ends with $code after $(awk "BEGIN { print $(date +%s.%N) - $begin }") s"
     [ $code != 0 ] || failed=1
     for ((i = 0; i < 100; ++i)); do
         left=$(for host in "${hosts[@]}"; do on $host "$name"; done)
         [ -z "$left" ] && break
         sleep 0.1
     done
-    echo "$1: no rank is left after $(echo "$(date +%s.%N) - $begin" | bc) s"
+    echo "$1: no rank is left after $(awk "BEGIN { print $(date +%s.%N) - $begin }") s"
     check "$1: all ranks have ended" "$left" ""
 }
 kill_in_job "a killed rank" "$name"

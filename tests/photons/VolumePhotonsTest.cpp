@@ -65,6 +65,27 @@ TEST_CASE("volume photons: agree with paths", "[photons][statistics][media]")
     }
 }
 
+TEST_CASE("volume photons: what has come through smoke meets the smoke behind it",
+          "[photons][statistics][media]")
+{
+    SceneBuilder builder = cornellBox();
+    builder.add(boxMesh({5, 400, 5}, {545, 500, 550}), bodyOf(mediumOf(0.01f, 0.1f)));
+    builder.add(boxMesh({5, 150, 5}, {545, 250, 550}), bodyOf(mediumOf(0.01f, 0.1f)));
+    const auto traced = builder.build();
+    // Below both, light comes to the back wall through both, in large part by the floor.
+    const View view = perspectiveView({278, 70, 20}, {278, 70, 550}, {0, 1, 0}, 0.2, 16, 16);
+    RenderOptions options = optionsOf(IntegratorKind::Path, 12);
+    const Estimate path = meanOf(traced, view, options, 64);
+    options.integrator = IntegratorKind::Sppm;
+    options.photons = 200000;
+    options.photonRadius = 25.0f;
+    const Estimate photons = meanOf(traced, view, options, 8);
+    const double p = welchTest(path, kRuns, photons, kRuns);
+    CAPTURE(path.mean(), path.standardError(), photons.mean(), photons.standardError(), p);
+    CHECK(photons.standardError() < 0.08 * path.mean());
+    CHECK(p > 0.001); // a false alarm in a thousand seeds
+}
+
 TEST_CASE("volume photons: the image of a light in a mirror shines in fog",
           "[photons][statistics][media]")
 {

@@ -66,6 +66,8 @@ bool ScenePatcher::removeProxy(const ChangedUse& gone)
     TracedGeometry& traced = found->second;
     if (!traced.culled || traced.uses.size() != 1 || traced.uses[0].effects != kInvalid)
         return false;
+    for (const ClippedUse& use : _convertedGraph.clipped)
+        if (use.geometry == gone.geometry) return false; // planes cut its mesh in its place
     const uint32_t index = traced.uses[0].instance;
     if (index != kInvalid)
     {

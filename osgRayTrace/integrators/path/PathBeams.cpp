@@ -20,8 +20,7 @@ BeamQuery queryOf(const PassContext& context, const MediumSegments& segments, La
     BeamQuery query;
     query.ray = segments.ray;
     query.lanes = lanes;
-    query.mostEdges =
-        std::min(kMostEdges, static_cast<uint32_t>(context.options.maxBounces - number));
+    query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - number);
     query.radius = context.beamRadius;
     query.leastSine = context.leastSine;
     for (int i = 0; i < kLanes; ++i)
