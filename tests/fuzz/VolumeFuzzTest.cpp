@@ -76,7 +76,7 @@ osg::ref_ptr<osgVolume::VolumeTile> randomTile(Dice& dice)
                                    osg::Vec4(strangeValue(dice), strangeValue(dice),
                                              strangeValue(dice), strangeValue(dice)));
     }
-    osgVolume::VolumeTechnique* technique = new osgVolume::MultipassTechnique;
+    osg::ref_ptr<osgVolume::VolumeTechnique> technique = new osgVolume::MultipassTechnique;
     if (dice.oneIn(3)) technique = new osgVolume::RayTracedTechnique;
     osg::ref_ptr<osgVolume::VolumeTile> tile =
         tileOf(randomImage(dice), transfer, technique, randomLocator(dice));
