@@ -5,8 +5,6 @@
 
 #include <osgRayTrace/MediumVolume>
 
-#include <osg/LightSource>
-
 namespace osgRayTrace::data
 {
 
@@ -55,19 +53,6 @@ void addWindow(osg::Group& scene)
     scene.addChild(surface("bars", bars, lambert(Vec3(0.05f, 0.05f, 0.05f)).get()));
 }
 
-osg::ref_ptr<osg::LightSource> sun()
-{
-    osg::ref_ptr<osg::Light> light = new osg::Light(1);
-    light->setPosition(osg::Vec4(-0.8f, -0.25f, 0.52f, 0.0f));
-    light->setAmbient(osg::Vec4(0, 0, 0, 1));
-    light->setDiffuse(osg::Vec4(26.0f, 24.0f, 20.0f, 1));
-    light->setSpecular(osg::Vec4(0, 0, 0, 1));
-    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    source->setName("sun");
-    source->setLight(light.get());
-    return source;
-}
-
 } // namespace
 
 osg::ref_ptr<osg::Group> hazeWindow()
@@ -88,7 +73,7 @@ osg::ref_ptr<osg::Group> hazeWindow()
                              inWall(kHigh, kSill, 3, kTop)},
                             stone.get()));
     addWindow(*scene);
-    scene->addChild(sun().get());
+    scene->addChild(sun({-0.8f, -0.25f, 0.52f}, {26.0f, 24.0f, 20.0f}).get());
     const osg::ref_ptr<Medium> haze = new Medium;
     haze->setScattering(Vec3(0.09f, 0.09f, 0.095f));
     haze->setAbsorption(Vec3(0.004f, 0.004f, 0.004f));

@@ -7,7 +7,6 @@
 #include <osgRayTrace/Medium>
 
 #include <osg/Image>
-#include <osg/LightSource>
 #include <osgVolume/MultipassTechnique>
 #include <osgVolume/Property>
 #include <osgVolume/VolumeTile>
@@ -92,19 +91,6 @@ osg::ref_ptr<osg::Image> smokeImage()
     return image;
 }
 
-osg::ref_ptr<osg::LightSource> sun()
-{
-    osg::ref_ptr<osg::Light> light = new osg::Light(1);
-    light->setPosition(osg::Vec4(-0.7f, -0.4f, 0.6f, 0.0f));
-    light->setAmbient(osg::Vec4(0, 0, 0, 1));
-    light->setDiffuse(osg::Vec4(3.2f, 2.9f, 2.5f, 1));
-    light->setSpecular(osg::Vec4(0, 0, 0, 1));
-    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    source->setName("sun");
-    source->setLight(light.get());
-    return source;
-}
-
 } // namespace
 
 osg::ref_ptr<osg::Group> smoke()
@@ -118,7 +104,7 @@ osg::ref_ptr<osg::Group> smoke()
                             lambert(Vec3(0.32f, 0.3f, 0.28f)).get()));
     scene->addChild(
         sphere("ember", Vec3(0, 0, 0.02f), 0.06f, lambert(Vec3(0.05f, 0.03f, 0.02f)).get()));
-    scene->addChild(sun().get());
+    scene->addChild(sun({-0.7f, -0.4f, 0.6f}, {3.2f, 2.9f, 2.5f}).get());
 
     const osg::ref_ptr<Medium> medium = new Medium; // of the densest voxels [1/m]
     medium->setScattering(Vec3(13.0f, 13.2f, 13.5f));

@@ -183,6 +183,19 @@ void makeEmpty(osg::Group& scene, const std::string& name)
 
 } // namespace
 
+osg::ref_ptr<osg::LightSource> sun(const osg::Vec3& towards, const osg::Vec3& color)
+{
+    osg::ref_ptr<osg::Light> light = new osg::Light(1);
+    light->setPosition(osg::Vec4(towards, 0.0f));
+    light->setAmbient(osg::Vec4(0, 0, 0, 1));
+    light->setDiffuse(osg::Vec4(color, 1));
+    light->setSpecular(osg::Vec4(0, 0, 0, 1));
+    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    source->setName("sun");
+    source->setLight(light.get());
+    return source;
+}
+
 osg::ref_ptr<osg::Group> newGraph(const std::string& name)
 {
     osg::ref_ptr<osg::Group> graph = new osg::Group;

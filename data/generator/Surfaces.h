@@ -7,6 +7,7 @@
 #include <osg/CameraView>
 #include <osg/Geode>
 #include <osg/Group>
+#include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Vec3>
@@ -60,6 +61,9 @@ void addArc(std::vector<ProfilePoint>& profile, double radius, double z, double 
 
 /// Returns the six sides of a box along the axes.
 std::vector<Quad> boxQuads(const osg::Vec3& low, const osg::Vec3& high);
+
+/// Returns the light of a sun in a direction, without ambient and specular light.
+osg::ref_ptr<osg::LightSource> sun(const osg::Vec3& towards, const osg::Vec3& color);
 
 /// Describes a view of a scene, in the coordinates of the scene's content.
 struct SceneView

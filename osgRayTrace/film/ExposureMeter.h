@@ -23,7 +23,17 @@ public:
     /// ones a step nearer if they are off by more than kTolerance.
     float follow(float reading);
 
-    void reset() { _value.reset(); }
+    void reset()
+    {
+        _value.reset();
+        _moving = false;
+    }
+
+    /// Stays where it is until the next reading.
+    void rest() { _moving = false; }
+
+    /// Returns whether the next reading, if it is the same, changes the exposure.
+    bool isMoving() const { return _moving; }
 
     static constexpr float kTolerance = 0.15f; ///< [EV]
     static constexpr float kStep = 0.2f;       ///< share of the difference that a step takes

@@ -82,8 +82,10 @@ OSGRAYTRACE_INLINE LaneMask crossingsOf(const BeamPiece& piece, const BeamQuery&
 
 OSGRAYTRACE_INLINE float left(float sigmaT, float distance)
 {
+    // Lanes that no beam crosses may have any distance, or none.
     const float exponent = -kLog2E * sigmaT * distance;
-    return exp2Lanes(exponent > -126.0f ? exponent : -126.0f);
+    const float below = exponent < 0.0f ? exponent : 0.0f;
+    return exp2Lanes(below > -126.0f ? below : -126.0f);
 }
 
 /// Adds what a piece scatters towards the rays that pass it.

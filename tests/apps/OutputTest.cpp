@@ -223,9 +223,10 @@ TEST_CASE("osgraytrace: a message on standard error is one write", "[apps]")
     int pipe[2];
     REQUIRE(pipe2(pipe, O_DIRECT | O_NONBLOCK) == 0);
     const TemporaryFolder folder;
+    // The shell knows descriptors of one digit.
+    REQUIRE(dup2(pipe[1], 9) == 9);
     const std::string command = "cd '" + folder / "." + "' && timeout 60 '" +
-                                OSGRAYTRACE_TEST_PROGRAM + "' none.osgt -o x.png 2>&" +
-                                std::to_string(pipe[1]);
+                                OSGRAYTRACE_TEST_PROGRAM + "' none.osgt -o x.png 2>&9";
     const int status = std::system(command.c_str());
     REQUIRE(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 2);
@@ -235,6 +236,7 @@ TEST_CASE("osgraytrace: a message on standard error is one write", "[apps]")
         last.assign(packet, static_cast<std::size_t>(size));
     close(pipe[0]);
     close(pipe[1]);
+    close(9);
     CHECK_THAT(last, StartsWith("osgraytrace: cannot load none.osgt"));
     CHECK(last.find('\n') == last.size() - 1);
 }

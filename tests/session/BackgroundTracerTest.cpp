@@ -281,6 +281,28 @@ TEST_CASE("background: a view that nobody asks for any more rests", "[session]")
     CHECK(desk.tracer->report(desk.frame).progress.passes == 2 * BackgroundTracer::kMostUnasked);
 }
 
+TEST_CASE("background: the exposure of a finished image comes to rest", "[session]")
+{
+    Desk desk;
+    desk.inputs.options.maxBounces = 2;
+    desk.inputs.autoExposure = true;
+    desk.gate->pass(kAll);
+    desk.ask(0.0);
+    REQUIRE(desk.rests());
+    const float before = desk.tracer->report(desk.frame).progress.stages.autoEv;
+    SceneBuilder brighter = cornellBox();
+    for (Light& light : brighter.scene->lights)
+        light.radiance *= 16.0f;
+    desk.inputs.scene = brighter.build();
+    for (int i = 0; i < 60; ++i)
+    {
+        desk.ask(0.0);
+        REQUIRE(desk.rests());
+    }
+    const float after = desk.tracer->report(desk.frame).progress.stages.autoEv;
+    CHECK(std::abs(before - after - 4.0f) < EasedExposure::kTolerance);
+}
+
 TEST_CASE("background: destroyed while its worker traces it does not wait, and nothing stays",
           "[session]")
 {

@@ -95,14 +95,7 @@ bool ScenePatcher::addProxies(const CullSplice& splice)
     if (graph.geometries.size() != leaves.size() || report.remarks() != leaves.size())
         return refuseAll(ConversionCause::CullTraversal);
     graph.texGens = _convertedGraph.texGens;
-    uint64_t vertices = 0;
-    for (CollectedGeometry& geometry : graph.geometries)
-    {
-        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
-        vertices += geometry.bounds->count;
-    }
-    if (vertices > kSmallStatic && vertices >= _caches.staticVertices)
-        return refuseAll(ConversionCause::LargeSubgraph);
+    if (!findBounds(graph)) return refuseAll(ConversionCause::LargeSubgraph);
     if (!lengthsOf(graph).areOrdinary()) return refuseAll(ConversionCause::Lengths);
     for (std::size_t i = 0; i < leaves.size(); ++i)
     {

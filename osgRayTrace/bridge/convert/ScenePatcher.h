@@ -48,6 +48,7 @@ private:
     bool splice(const CullSplice& splice);
     bool removeProxy(const ChangedUse& gone);
     bool addProxies(const CullSplice& splice);
+    bool findBounds(CollectedGraph& graph);
     ConversionCause addProxy(const CollectedGraph& graph, const CollectedGeometry& geometry);
     void removeInstance(uint32_t index);
     void removeMesh(uint32_t index);

@@ -116,6 +116,19 @@ uint32_t ScenePatcher::emptyMeshIndex()
     return _convertedGraph.emptyMesh;
 }
 
+/// Finds the bounds of the geometries of a subgraph. Returns false if it has so many vertices that
+/// it belongs in the static BVH.
+bool ScenePatcher::findBounds(CollectedGraph& graph)
+{
+    uint64_t vertices = 0;
+    for (CollectedGeometry& geometry : graph.geometries)
+    {
+        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
+        vertices += geometry.bounds->count;
+    }
+    return vertices <= kSmallStatic || vertices < _caches.staticVertices;
+}
+
 bool ScenePatcher::add(const GraphSplice& splice)
 {
     if (_input.assignsMaterials()) // rules look at names
@@ -135,15 +148,7 @@ bool ScenePatcher::add(const GraphSplice& splice)
                        graph.cullOutcomes.empty() && report.counts().empty();
     if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
-    uint64_t vertices = 0;
-    for (CollectedGeometry& geometry : graph.geometries)
-    {
-        geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
-        vertices += geometry.bounds->count;
-    }
-    // A subgraph of so many vertices belongs in the static BVH.
-    if (vertices > kSmallStatic && vertices >= _caches.staticVertices)
-        return refuse(ConversionCause::LargeSubgraph, splice.added);
+    if (!findBounds(graph)) return refuse(ConversionCause::LargeSubgraph, splice.added);
     if (!graph.geometries.empty() && !lengthsOf(graph).areOrdinary())
         return refuse(ConversionCause::Lengths, splice.added);
     for (const CollectedGeometry& geometry : graph.geometries)

@@ -11,13 +11,12 @@
 // phase function; absorption is a weight, not an end. A light that a path meets straight after a
 // collision counts for nothing, as SegmentLights.h has sampled it; the sky is weighted against its
 // samples by the power heuristic, with the densities of place and direction of both.
-#include "osgRayTrace/integrators/path/PathMedium.h"
+#include "osgRayTrace/integrators/path/PathMediumWalk.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
-#include "osgRayTrace/integrators/shared/SegmentLights.h"
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/Transmittance.h"
@@ -25,7 +24,6 @@
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
-#include <memory>
 
 namespace osgRayTrace::engine
 {
@@ -38,86 +36,7 @@ float largestOf(Vec3 v)
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-class MediumWalk
-{
-public:
-    MediumWalk(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
-        : _tile(tile),
-          _block(block),
-          _traced(*tile.context.traced),
-          _media(_traced.media()),
-          _number(number),
-          _last(last),
-          _use(use),
-          _collides(number + 1 < tile.context.options.maxBounces),
-          _open(block.active)
-    {
-        if (_traced.traits().volumes)
-        {
-            _grids = std::make_unique<GridLanes>();
-            _segments.grids = _grids.get();
-        }
-        for (int i = 0; i < kLanes; ++i)
-        {
-            _begin[i] = 0.0f;
-            _collisions[i] = 0;
-        }
-    }
-
-    LaneMask run();
-
-private:
-    enum class End
-    {
-        Surface, ///< the path has come to a surface, or leaves the scene
-        GoesOn,  ///< the path has a new ray, or goes on along its ray
-        Dies,
-    };
-
-    void findSegments(int step);
-    void findGrids(int i, Vec3 origin, float end);
-    void addLight();
-    void addPhotonBeams(int step);
-    void addPhotonPoints(int i, Vec3 point, Vec3 throughput);
-    End travel(int i);
-    End travelGrids(int i, const GridRay& grids);
-    End collide(int i, float distance);
-    End scatterInGrids(int i, const GridRay& grids, float distance);
-    bool survives(int i, Vec3 throughput);
-    End meet(int i);
-    bool passBoundary(int i, End& end);
-    void spawn(int i, const RayBegin& begin, Vec3 direction);
-    void trace(LaneMask lanes);
-
-    /// Returns whether another body fills both sides of the surface of a body.
-    bool isDisplaced(int i, MediumId body) const
-    {
-        return _media.nests() && _media.at(bodiesBehind(_block.bodies[i], body, isFront(i))) ==
-                                     _media.at(_block.bodies[i]);
-    }
-
-    bool hasHit(int i) const { return (_surface.hits >> i) & 1u; }
-    bool isFront(int i) const { return (_surface.front >> i) & 1u; }
-    MediumId bodyAt(int i) const
-    {
-        return hasHit(i) ? _media.interiorOf(_surface.material[i]) : kOutside;
-    }
-
-    Tile& _tile;
-    PathBlock& _block;
-    const TracedScene& _traced;
-    const MediumTable& _media;
-    const int _number;
-    const bool _last;     ///< rays find emission alone
-    const PhotonUse _use; ///< of the photons that rays look up
-    const bool _collides; ///< paths have an edge left for light behind a collision
-    LaneMask _open, _collided = 0;
-    FloatLanes _begin; ///< where on the ray the stretch begins
-    uint32_t _collisions[kLanes];
-    SurfaceLanes _surface;
-    MediumSegments _segments;
-    std::unique_ptr<GridLanes> _grids; ///< null: the scene has no volumes
-};
+} // namespace
 
 /// Finds the stretches of the open paths up to the next surface.
 void MediumWalk::findSegments(int step)
@@ -149,21 +68,6 @@ void MediumWalk::findSegments(int step)
             _segments.lanes |= 1u << i;
         if (_grids) findGrids(i, origin, end);
     }
-}
-
-/// Finds the volumes on the stretch of lane i.
-void MediumWalk::findGrids(int i, Vec3 origin, float end)
-{
-    std::optional<GridRay>& grids = (*_grids)[i];
-    grids.emplace(_traced.grids(), origin, directionOf(_block.rays.ray, i), _begin[i], end);
-    if (grids->isEmpty())
-    {
-        grids.reset();
-        return;
-    }
-    grids->setAround(_media[_segments.media[i]], _segments.parts[i]);
-    _segments.parts[i] = grids->extent();
-    if (grids->scatters() && !_last) _segments.lanes |= 1u << i;
 }
 
 /// Adds the light that the stretches scatter and emit towards their rays.
@@ -234,49 +138,6 @@ MediumWalk::End MediumWalk::travel(int i)
                                            _segments.numbers[i].at(MediumFlight).x);
     setLane(_block.throughput, i, throughput * flight.weight);
     return flight.collides ? collide(i, part.begin + flight.distance) : meet(i);
-}
-
-/// Takes a path along a stretch with volumes on it.
-MediumWalk::End MediumWalk::travelGrids(int i, const GridRay& grids)
-{
-    NumberStream numbers(_segments.numbers[i].seedOf(MediumFlight));
-    const Vec3 throughput = laneOf(_block.throughput, i);
-    const PathFlags flags = _block.flagsOf(i);
-    if (!grids.scatters() || !_collides)
-    {
-        const GridWay way = grids.way(numbers);
-        _tile.counts.cutWalks += way.cut;
-        _tile.sums.add(flags, throughput * way.emitted);
-        setLane(_block.throughput, i, throughput * way.left);
-        return way.left == Vec3(0.0f) ? End::Dies : meet(i);
-    }
-    const GridFlight flight = grids.flight(channelPmf(throughput), numbers);
-    _tile.counts.cutWalks += flight.cut;
-    _tile.sums.add(flags, throughput * flight.emitted);
-    if (flight.weight == Vec3(0.0f)) return End::Dies;
-    setLane(_block.throughput, i, throughput * flight.weight);
-    return flight.collides ? scatterInGrids(i, grids, flight.distance) : meet(i);
-}
-
-/// Scatters a path at a point of its ray by what is there, unless roulette ends it.
-MediumWalk::End MediumWalk::scatterInGrids(int i, const GridRay& grids, float distance)
-{
-    const Scatterers here = grids.scatterersAt(distance);
-    if (here.count == 0) return End::Dies;
-    const MediumNumbers& numbers = _segments.numbers[i];
-    const RayBlock& ray = _block.rays.ray;
-    const Vec3 before = directionOf(ray, i);
-    const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    const Vec2 u = numbers.at(MediumPhase);
-    const Vec3 after = here.sample(before, numbers.at(MediumBoundary).x, u.x, u.y);
-    const float cosTheta = glm::dot(before, after), pdf = here.pdf(cosTheta);
-    if (!(pdf > 0.0f)) return End::Dies;
-    if (!survives(i, laneOf(_block.throughput, i) * here.scattered(cosTheta) / pdf))
-        return End::Dies;
-    _block.pdfW[i] = pdf;
-    _block.flags[i] = _block.flagsOf(i).collided().word();
-    spawn(i, {point, 0.0f}, after);
-    return End::GoesOn;
 }
 
 /// Counts a collision, and sets the throughput behind it unless the path ends there.
@@ -440,8 +301,6 @@ LaneMask MediumWalk::run()
     }
     return _collided;
 }
-
-} // namespace
 
 LaneMask travelMedia(Tile& tile, PathBlock& block, int number, bool last, PhotonUse use)
 {

@@ -228,7 +228,8 @@ Outcome BackgroundTracer::Worker::traceAndResolve(const TraceRequest& request)
     }
     if (request.traces) tracer.recordPresented();
     Outcome outcome{tracer.progress(), tracer.frame(), true};
-    if (outcome.progress.status.ok()) outcome.done = !request.traces || tracer.isDone();
+    if (outcome.progress.status.ok())
+        outcome.done = !request.traces || (tracer.isDone() && !tracer.isExposureMoving());
     return outcome;
 }
 

@@ -84,6 +84,10 @@ public:
     /// what was resolved last, and false if there is no image.
     bool needsResolve(const ViewInputs& inputs);
 
+    /// Returns whether the display's exposure is on its way to that of the image: another picture
+    /// is due, even of a finished image.
+    bool isExposureMoving() const { return _exposure.isMoving(); }
+
     /// Writes display values and window depths of displayWidth() * displayHeight() pixels.
     void resolve(uint8_t* rgba, float* depth);
 

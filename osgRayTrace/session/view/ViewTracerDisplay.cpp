@@ -25,7 +25,10 @@ void ViewTracer::meter()
     constexpr int kMostTiles = 256; // some 0.1 ms
     if (!hasImage()) return;
     const std::optional<float> reading = image().meteredEv(kMostTiles);
-    if (reading) _autoEv = _exposure.follow(*reading);
+    if (reading)
+        _autoEv = _exposure.follow(*reading);
+    else
+        _exposure.rest();
 }
 
 /// Views that agree show one picture, and keep the exposure that is set.
