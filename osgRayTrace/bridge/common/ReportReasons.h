@@ -171,6 +171,7 @@ constexpr ReportReason kReportReasons[] = {
     {"warned.light-size", "names of light-sizes that no light has"},
     {"warned.material-name", "rules of the material file whose name nothing has"},
     {"warned.material-value", "rules of the material file that ask for what is not there"},
+    {"warned.open-body", "uses of drawables with an interior that they do not enclose"},
     {"warned.too-many-points", "drawables with more than 524,288 points and line segments"},
     {"warned.trace-hint", "nodes that are hinted to be traced, but cannot be"},
 

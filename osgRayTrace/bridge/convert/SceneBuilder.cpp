@@ -28,6 +28,13 @@ constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
 
+/// Returns whether light enters the surfaces of a material, and meets something behind them.
+bool hasInterior(const Material& m)
+{
+    return m.model == MaterialModel::Physical && m.detail && m.detail->fillsBody() &&
+           (m.transmission > 0.0f || m.detail->diffuseTransmission > 0.0f);
+}
+
 } // namespace
 
 SceneBuilder::SceneBuilder(const ConversionInput& input, const CollectedGraph& graph,
@@ -131,6 +138,15 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
     _report.warn("warned.far-vertices", "geometry '" + geometry.path + "'",
                  "vertices far from the geometry's own origin are coarse in float: use local "
                  "coordinates below a transform");
+}
+
+/// Warns if a geometry has an interior, but does not enclose it.
+void SceneBuilder::warnIfOpen(const CollectedGeometry& geometry, const Instance& instance)
+{
+    if (!hasInterior(_convertedGraph.materials[instance.material])) return;
+    if (_caches.closedMeshes.isClosed(*_scene.meshes[instance.mesh])) return;
+    _report.warn("warned.open-body", "geometry '" + geometry.path + "'",
+                 "the interior is not enclosed: rays that leave through a hole take it along");
 }
 
 /// Records whether new geometries join the static BVH. They get BVHs of their own, unless they have
@@ -350,6 +366,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
         _materials.material(state, surfaceInputs(*geometry.geometry, _input.pointRadius),
                             {use.engineFromLocal, &_graph.texGens}));
     _report.addHere(_materialReport);
+    warnIfOpen(geometry, instance);
     setAmbient(state);
     instance.changed = _rules.now;
     return {appendInstance(instance), effects(use.state, _materialReport.counts())};

@@ -49,6 +49,7 @@ private:
     void putFlatFirst();
     void addGeometry(const CollectedGeometry& geometry);
     void warnIfCoarse(const CollectedGeometry& geometry);
+    void warnIfOpen(const CollectedGeometry& geometry, const Instance& instance);
     Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                     MeshRequest& request);
     void recordClipped(const CollectedGeometry& geometry, const GeometryUse& use,
