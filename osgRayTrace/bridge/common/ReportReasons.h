@@ -44,6 +44,7 @@ constexpr ReportReason kReportReasons[] = {
     {"converted.line", "line segments, traced as capsules"},
     {"converted.culled", "uses of drawables that a cull traversal places or gives their state"},
     {"converted.volume", "osgVolume's tiles"},
+    {"converted.isosurface", "isosurfaces of osgVolume's tiles, traced as meshes"},
     {"converted.light", "lights of the scene"},
     {"converted.area-light", "area lights among them"},
     {"converted.environment-light", "the environment light"},
@@ -75,8 +76,7 @@ constexpr ReportReason kReportReasons[] = {
     {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
     {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
     {"rasterized.view-mask", "drawables that the node masks of some views hide"},
-    {"rasterized.volume",
-     "osgVolume's volumes with a projection, an isosurface, a hull or another technique"},
+    {"rasterized.volume", "osgVolume's volumes with a projection, a hull or another technique"},
 
     {"traced.proxy", "uses of surfaces that OSG draws, traced for all rays but the camera's"},
 
