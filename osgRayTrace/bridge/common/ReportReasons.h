@@ -108,8 +108,6 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.coat-normal",
      "clear coats of thin walls, which have the bumps of the wall's normal map"},
     {"approximated.color-mask", "drawables with a colour mask"},
-    {"approximated.volume-light",
-     "osgVolume's tiles with a LightingProperty, whose paths show them unlit"},
     {"approximated.cull-traversal",
      "nodes that may draw in cull, without a viewer: their cull traversal is not run"},
     {"approximated.depth-range", "drawables whose depth range has no extent, at their own depth"},

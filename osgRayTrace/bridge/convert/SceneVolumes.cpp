@@ -109,7 +109,6 @@ void setVolumes(Scene& scene, const std::vector<CollectedTile>& tiles, VolumeIma
             continue;
         }
         if (repaired > 0) report.count("repaired.voxel", repaired);
-        if (volume.lit) report.count("approximated.volume-light");
         volume.tileFromEngine = *tileMap;
         volume.imageFromEngine = *imageMap;
         scene.volumes.push_back(std::move(volume));
