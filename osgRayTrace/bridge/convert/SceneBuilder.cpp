@@ -251,8 +251,9 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
     reportOf(geometry).count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
-    if (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes)
-        placeInstance(instance, osg::Matrixd()); // the static BVH must not be built time and again
+    // The static BVH must not be built time and again, and nothing keeps it once it is given up.
+    if (_caches.noStaticBvh || (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes))
+        placeInstance(instance, osg::Matrixd());
     addInstance(geometry, use, instance);
 }
 
