@@ -218,10 +218,15 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     traced.patchable = traced.culled || (traced.uses.empty() && geometry.watched);
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
+    bool raised = false;
     for (const GeometryUse& use : geometry.uses)
-        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f &&
-                            clipPlanesOn(_graph.states[use.state]) == 0;
-    if (isPlaced(geometry))
+    {
+        raised |= depthBias(_graph.states[use.state]) != 0.0f;
+        traced.patchable &= clipPlanesOn(_graph.states[use.state]) == 0;
+    }
+    traced.raised = raised && geometry.uses.size() == 1;
+    traced.patchable &= raised == traced.raised;
+    if (isPlaced(geometry) && !traced.raised)
         addPlacedUses(geometry);
     else
     {
@@ -252,7 +257,9 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
     Instance instance;
     instance.mesh = addMesh(mesh);
     // The static BVH must not be built time and again, and nothing keeps it once it is given up.
-    if (_caches.noStaticBvh || (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes))
+    if (_rules.patches || _caches.noStaticBvh ||
+        (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes) ||
+        _caches.geometries.mobility(*geometry.geometry) != Mobility::Static)
         placeInstance(instance, osg::Matrixd());
     addInstance(geometry, use, instance);
 }
@@ -312,7 +319,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 {
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-    if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
+    if (!request || traced.uses.empty() || traced.raised ||
+        depthBias(_graph.states[use.state]) != 0.0f)
         return false;
     if (moreUvSetsOf(_graph.states[use.state]) & ~request->uvSets) return false;
     osg::Matrixd localFromMesh;

@@ -17,6 +17,7 @@ struct BuildRules
     bool linear = false;
     bool setsColor = false;  ///< see MaterialRules
     bool comparable = false; ///< comparable with the last snapshot: differences are changes
+    bool patches = false;    ///< adds to a scene that is there: all instances are placed
     Stamp now = 0;
 };
 
