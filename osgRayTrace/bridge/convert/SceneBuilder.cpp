@@ -175,7 +175,8 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
              last->transform !=
                  requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.recordMobility(geometry, Mobility::Dynamic);
-    else if (once && (_caches.noStaticBvh || (_rules.comparable && !last && !_newJoinStatic)))
+    else if (once && (_rules.patches || _caches.noStaticBvh ||
+                      (_rules.comparable && !last && !_newJoinStatic)))
         cache.recordMobility(geometry, Mobility::Dynamic);
     return !once || cache.mobility(geometry) != Mobility::Static;
 }
@@ -226,7 +227,14 @@ void SceneBuilder::recordClipped(const CollectedGeometry& geometry, const Geomet
 /// made in double; a geometry that is used more often gets one mesh and several instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
-    const uint64_t remarks = _report.remarks();
+    std::unique_ptr<ConversionCounts> remarks;
+    _report.setListener(
+        [&remarks](const std::string& what, uint64_t number)
+        {
+            if (what.rfind("converted.", 0) == 0) return;
+            if (!remarks) remarks = std::make_unique<ConversionCounts>();
+            (*remarks)[what] += number;
+        });
     warnIfCoarse(geometry);
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     // The index holds only one of a geometry that was collected for two primitive restarts.
@@ -234,10 +242,15 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     traced.patchable = traced.culled || (traced.uses.empty() && geometry.watched);
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
+    bool raised = false;
     for (const GeometryUse& use : geometry.uses)
-        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f &&
-                            clipPlanesOn(_graph.states[use.state]) == 0;
-    if (isPlaced(geometry))
+    {
+        raised |= depthBias(_graph.states[use.state]) != 0.0f;
+        traced.patchable &= clipPlanesOn(_graph.states[use.state]) == 0;
+    }
+    traced.raised = raised && geometry.uses.size() == 1;
+    traced.patchable &= raised == traced.raised;
+    if (isPlaced(geometry) && !traced.raised)
         addPlacedUses(geometry);
     else
     {
@@ -253,7 +266,9 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
                                              geometry.path, reportOf(geometry)));
         recordClipped(geometry, use, request, kOwnVariant, clipping, true);
     }
-    traced.plain = _report.remarks() == remarks;
+    _report.setListener({});
+    traced.plain = !remarks;
+    traced.remarks = std::move(remarks);
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -267,8 +282,11 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
     reportOf(geometry).count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
-    if (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes)
-        placeInstance(instance, osg::Matrixd()); // the static BVH must not be built time and again
+    // The static BVH must not be built time and again, and nothing keeps it once it is given up.
+    if (_rules.patches || _caches.noStaticBvh ||
+        (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes) ||
+        _caches.geometries.mobility(*geometry.geometry) != Mobility::Static)
+        placeInstance(instance, osg::Matrixd());
     addInstance(geometry, use, instance);
 }
 
@@ -327,7 +345,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 {
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-    if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
+    if (!request || traced.uses.empty() || traced.raised ||
+        depthBias(_graph.states[use.state]) != 0.0f)
         return false;
     if (moreUvSetsOf(_graph.states[use.state]) & ~request->uvSets) return false;
     osg::Matrixd localFromMesh;
@@ -337,7 +356,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
     Instance instance;
     instance.mesh = _scene.instances[other].mesh;
     if (!placeInstance(instance, localFromMesh * use.engineFromLocal)) return false;
-    const TracedUse result = newInstance(geometry, use, instance);
+    TracedUse result = newInstance(geometry, use, instance);
+    result.subtree = subtreeOf(use);
     _convertedGraph.index.addUse(traced, result, before);
     _report.count("converted.instance");
     return true;
@@ -346,14 +366,16 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                Instance instance)
 {
-    recordUse(geometry, newInstance(geometry, use, instance));
+    recordUse(geometry, use, newInstance(geometry, use, instance));
 }
 
-void SceneBuilder::recordUse(const CollectedGeometry& geometry, const TracedUse& use)
+void SceneBuilder::recordUse(const CollectedGeometry& geometry, const GeometryUse& use,
+                             TracedUse traced)
 {
-    TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    _convertedGraph.index.addUse(traced, use, traced.uses.size());
-    _instances.push_back(use.instance);
+    traced.subtree = subtreeOf(use);
+    TracedGeometry& all = _convertedGraph.index.at(*geometry.geometry);
+    _convertedGraph.index.addUse(all, traced, all.uses.size());
+    _instances.push_back(traced.instance);
 }
 
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -363,8 +385,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
     instance.material = _convertedGraph.materials.add(
-        _materials.material(state, surfaceInputs(*geometry.geometry, _input.pointRadius),
-                            {use.engineFromLocal, &_graph.texGens}));
+        materialOf(_materials, use, _graph, surfaceInputs(*geometry.geometry, _input.pointRadius)));
     _report.addHere(_materialReport);
     warnIfOpen(geometry, instance);
     setAmbient(state);

@@ -5,11 +5,12 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
-#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
 
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -39,18 +40,21 @@ StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& tex
 
 struct TracedUse
 {
-    uint32_t instance = kInvalid; ///< kInvalid: the use is not traced
-    uint32_t effects = kInvalid;  ///< kInvalid: OSG draws the use
+    uint32_t instance = kInvalid;  ///< kInvalid: the use is not traced
+    uint32_t effects = kInvalid;   ///< kInvalid: OSG draws the use
+    uint32_t subtree = kNoSubtree; ///< index into ConvertedGraph::subtrees
 };
 
 struct TracedGeometry
 {
     osg::ref_ptr<const osg::Geometry> geometry; ///< key in SceneIndex::geometries
     std::vector<TracedUse> uses;                ///< in the order of the traversal
-    /// False: the mesh is made at its place, as raised faces are, or is not watched.
+    /// False: the mesh is made at its place, as cut faces are, or is not watched.
     bool patchable = true;
+    bool raised = false; ///< true: its only use has raised faces, in a mesh made at its place
     bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
     bool plain = true;   ///< true: only its conversion is counted
+    std::unique_ptr<const ConversionCounts> remarks; ///< what else is counted; null: nothing
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.

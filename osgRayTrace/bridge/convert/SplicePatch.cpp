@@ -1,5 +1,6 @@
 // SplicePatch.cpp - patches a scene for nodes that came or went. Layer: bridge.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
@@ -96,13 +97,22 @@ void ScenePatcher::removeMesh(uint32_t index)
     _convertedGraph.meshGaps.push_back(index);
 }
 
-/// Returns whether no traced use has these effects any more: the effects on the whole scene would
-/// then change.
+/// Returns whether no traced use is left that has the same effects on the whole scene, so that they
+/// would cease.
 bool ScenePatcher::isLastOf(uint32_t effects) const
 {
+    const StateEffects& gone = _convertedGraph.index.stateEffects[effects];
+    bool ambient = gone.hasAmbient, physical = gone.physical, color = gone.setsColor;
     for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
         for (const TracedUse& use : traced.uses)
-            if (use.effects == effects && use.instance != kInvalid) return false;
+        {
+            if (use.effects == kInvalid || use.instance == kInvalid) continue;
+            const StateEffects& other = _convertedGraph.index.stateEffects[use.effects];
+            ambient &= !(other.hasAmbient && other.ambient == gone.ambient);
+            physical &= !other.physical;
+            color &= !other.setsColor;
+            if (!ambient && !physical && !color) return false;
+        }
     return true;
 }
 
@@ -145,7 +155,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
     const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
                        lights.environments.empty() && lights.volumes.empty() &&
                        lights.tiles.empty() && graph.rasterized.empty() && !graph.paged &&
-                       graph.cullOutcomes.empty() && report.counts().empty();
+                       graph.cullOutcomes.empty() && graph.subtrees.empty() &&
+                       report.counts().empty();
     if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
     if (!findBounds(graph)) return refuse(ConversionCause::LargeSubgraph, splice.added);
@@ -170,13 +181,14 @@ ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
     const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
     for (const GeometryUse& use : geometry.uses)
     {
+        if (clipPlanesOn(graph.states[use.state]) != 0) return ConversionCause::ClipPlanes;
+        if (use.proxy) continue;
         const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
         if (effects.physical && automatic && _scene->displayReferred)
             return ConversionCause::ColorRule;
         if (effects.setsColor && !_convertedGraph.setsColor) return ConversionCause::CurrentColor;
         if (effects.hasAmbient && effects.ambient != _scene->ambient)
             return ConversionCause::AmbientLight;
-        if (effects.clipPlanes != 0) return ConversionCause::ClipPlanes;
     }
     return ConversionCause::None;
 }
@@ -201,6 +213,7 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
     rules.linear = !_scene->displayReferred;
     rules.setsColor = _convertedGraph.setsColor;
     rules.comparable = true;
+    rules.patches = true;
     rules.now = _now;
     SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
     std::vector<ChangedUse> uses;
