@@ -59,8 +59,14 @@ PlainPhotonGrid::PlainPhotonGrid(const std::vector<Photon>& photons, float cellS
         _photons[--_first[bucket[k]]] = photons[k];
 }
 
-OSGRAYTRACE_KERNEL
+// Before version 18, Clang gives the versions of a function a name that no other file knows.
 PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
+{
+    return gatherFrom(query);
+}
+
+OSGRAYTRACE_KERNEL
+PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
 {
     const PhotonQuery q = query;
     const Vec3 at = q.position - _low;
