@@ -59,12 +59,6 @@ PlainPhotonGrid::PlainPhotonGrid(const std::vector<Photon>& photons, float cellS
         _photons[--_first[bucket[k]]] = photons[k];
 }
 
-// Before version 18, Clang gives the versions of a function a name that no other file knows.
-PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
-{
-    return gatherFrom(query);
-}
-
 OSGRAYTRACE_KERNEL
 PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
 {
@@ -108,6 +102,12 @@ PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
                 }
             }
     return sum;
+}
+
+// Before version 18, Clang gives the versions of a function a name that no other file knows.
+PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
+{
+    return gatherFrom(query);
 }
 
 } // namespace osgRayTrace::bench
