@@ -50,12 +50,12 @@ void endCollection(ConversionCaches& caches)
 }
 
 /// Returns the parts that OSG has to draw; null: the parts show nothing.
-std::shared_ptr<const RasterizedParts>
-shownParts(const std::shared_ptr<const RasterizedParts>& parts)
+std::shared_ptr<const RasterizedParts> shownParts(RasterizedParts parts)
 {
     const auto shows = [](const RasterizedPart& part)
     { return part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Clear; };
-    return std::any_of(parts->begin(), parts->end(), shows) ? parts : nullptr;
+    if (std::none_of(parts.begin(), parts.end(), shows)) return nullptr;
+    return std::make_shared<const RasterizedParts>(std::move(parts));
 }
 
 double secondsSince(std::chrono::steady_clock::time_point begin)
@@ -155,8 +155,6 @@ void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& chang
     changes.moved.insert(changes.moved.end(), cull.moved.begin(), cull.moved.end());
     changes.deformed.insert(changes.deformed.end(), cull.deformed.begin(), cull.deformed.end());
     changes.culled.insert(changes.culled.end(), cull.splices.begin(), cull.splices.end());
-    for (const osg::NodePath& path : cull.others)
-        changes.subtrees.push_back({ConversionCause::CullTraversal, path});
     if (cull.holds || changes.convert) return;
     changes.convert = true;
     changes.reason.cause = ConversionCause::CullTraversal;
@@ -215,7 +213,6 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.clearColor = graph.clearColor;
     state.convertedGraph.inScene = std::move(graph.inScene);
     state.convertedGraph.texGens = graph.texGens;
-    state.convertedGraph.subtrees.record(graph);
     state.convertedGraph.clipPlanes = graph.clipPlanes;
     state.convertedGraph.cuttingPlanes = graph.cuttingPlanes;
     state.convertedGraph.unwatchedPlanes = graph.unwatchedPlanes;
@@ -229,9 +226,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
-    state.convertedGraph.subtrees.parts =
-        std::make_shared<const RasterizedParts>(std::move(graph.rasterized));
-    result.rasterized = shownParts(state.convertedGraph.subtrees.parts);
+    result.rasterized = shownParts(std::move(graph.rasterized));
     result.seconds = secondsSince(begin);
     state.lastResult = result;
     return result;
@@ -271,10 +266,6 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     for (const CullSplice& splice : changes.culled)
         for (const auto& [reason, more] : splice.countsMore)
             addToCount(result.counts, reason, more);
-    for (const auto& [reason, more] : patcher.countsMore())
-        addToCount(result.counts, reason, more);
-    if (patcher.otherParts()) result.rasterized = shownParts(state.convertedGraph.subtrees.parts);
-    result.paged |= patcher.paged();
     result.counts["converted.light"] =
         state.last->lights.size() - viewerLights(state.convertedGraph.lightCounts);
     result.emptyInstances = state.convertedGraph.instanceGaps.size();

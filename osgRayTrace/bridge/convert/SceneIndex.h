@@ -5,12 +5,11 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
-#include "osgRayTrace/bridge/graph/CollectedGraph.h"
+#include "osgRayTrace/bridge/graph/RasterizedParts.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
 
-#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -40,9 +39,8 @@ StateEffects stateEffectsOf(const GraphState& state, const TextureConverter& tex
 
 struct TracedUse
 {
-    uint32_t instance = kInvalid;  ///< kInvalid: the use is not traced
-    uint32_t effects = kInvalid;   ///< kInvalid: OSG draws the use
-    uint32_t subtree = kNoSubtree; ///< index into ConvertedGraph::subtrees
+    uint32_t instance = kInvalid; ///< kInvalid: the use is not traced
+    uint32_t effects = kInvalid;  ///< kInvalid: OSG draws the use
 };
 
 struct TracedGeometry
@@ -54,7 +52,6 @@ struct TracedGeometry
     bool raised = false; ///< true: its only use has raised faces, in a mesh made at its place
     bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
     bool plain = true;   ///< true: only its conversion is counted
-    std::unique_ptr<const ConversionCounts> remarks; ///< what else is counted; null: nothing
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.

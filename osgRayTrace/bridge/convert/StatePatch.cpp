@@ -26,13 +26,6 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
     const bool setsColor = _convertedGraph.index.colorUses() > 0; // see MaterialRules
     if (_recolors && setsColor != _convertedGraph.setsColor) // this rule holds for all materials
         return refuse(ConversionCause::CurrentColor, uses.front().path);
-    takeNewMaterials();
-    return true;
-}
-
-/// Gives instances their new materials.
-void ScenePatcher::takeNewMaterials()
-{
     for (const auto& [instance, material] : _newMaterials)
         _convertedGraph.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _newMaterials)
@@ -44,7 +37,7 @@ void ScenePatcher::takeNewMaterials()
         instance.changed = _now;
         _changed = true;
     }
-    _newMaterials.clear();
+    return true;
 }
 
 bool ScenePatcher::changeState(const StateChange& use, StateStack& states,

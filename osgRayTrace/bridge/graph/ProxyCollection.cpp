@@ -36,7 +36,8 @@ bool GraphCollector::leavesOut(const osg::Drawable& drawable)
     if (!isForTheMouse(drawable)) return false;
     _report.count("not-traced.mouse-handle");
     rasterize(RasterizedPart::Pick);
-    if (const osg::Geometry* geometry = drawable.asGeometry()) leave(*geometry);
+    if (const osg::Geometry* geometry = drawable.asGeometry())
+        _graph.leftGeometries.push_back(geometry);
     return true;
 }
 
