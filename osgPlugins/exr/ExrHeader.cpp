@@ -215,8 +215,8 @@ private:
         {
             const std::int32_t type = signedNumber();
             signedNumber();
-            const bool full = signedNumber() == 1 && signedNumber() == 1;
-            if (full) sum += type == kHalf ? 2 : 4;
+            const std::int32_t inX = signedNumber(), inY = signedNumber();
+            if (inX == 1 && inY == 1) sum += type == kHalf ? 2 : 4;
         }
         return sum;
     }
