@@ -78,11 +78,6 @@ TEST_CASE("media: the reflectance of a half-space", "[integrators][statistics][m
     checkReflectances(16, 4, 5e-3);
 }
 
-TEST_CASE("media: the reflectance of a half-space to 1e-4", "[.measure][statistics][media]")
-{
-    checkReflectances(64, 128, 1.5e-4);
-}
-
 TEST_CASE("media: a searchlight comes back around where it has entered",
           "[integrators][statistics][media]")
 {
