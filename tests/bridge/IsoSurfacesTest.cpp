@@ -5,6 +5,7 @@
 #include "osgRayTrace/sampling/Sampler.h"
 
 #include "tests/Catch.h"
+#include "tests/EnclosedVolume.h"
 #include "tests/VolumeTiles.h"
 #include "tests/api/Picks.h"
 #include "tests/bridge/Graphs.h"
@@ -21,6 +22,7 @@
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::test;
+using engine::test::enclosedVolume;
 
 namespace
 {
@@ -39,16 +41,6 @@ std::size_t openEdges(const std::vector<UVec3>& triangles)
         }
     return static_cast<std::size_t>(
         std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second; }));
-}
-
-/// Returns the volume that triangles enclose: positive if they are counter-clockwise from outside.
-double enclosedVolume(const IsoSurface& surface)
-{
-    double sum = 0.0;
-    for (const UVec3& t : surface.triangles)
-        sum += glm::dot(Vec3d(surface.positions[t.x]),
-                        glm::cross(Vec3d(surface.positions[t.y]), Vec3d(surface.positions[t.z])));
-    return sum / 6.0;
 }
 
 /// Returns an image of one channel whose values are a function of the middles of its voxels.

@@ -71,9 +71,12 @@ TEST_CASE("medium: coefficients from colours, and values that are refused", "[br
 
 TEST_CASE("medium: bodies that are open are named", "[bridge]")
 {
-    const auto openBodies = [](const osg::ref_ptr<osg::ShapeDrawable>& drawable, float transmission)
+    float metallic = 0.0f;
+    const auto openBodies =
+        [&](const osg::ref_ptr<osg::ShapeDrawable>& drawable, float transmission)
     {
         const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+        physical->setMetallic(metallic);
         physical->setTransmission(transmission);
         physical->setInterior(hazeMedium());
         drawable->getOrCreateStateSet()->setAttribute(physical);
@@ -95,6 +98,8 @@ TEST_CASE("medium: bodies that are open are named", "[bridge]")
     const osg::ref_ptr<osg::Shape> cylinder = new osg::Cylinder(place, 1.0f, 2.0f);
     CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 1.0f) == 1);
     CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 0.0f) == 0);
+    metallic = 1.0f;
+    CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 1.0f) == 0);
 }
 
 TEST_CASE("medium: the interior of a material, in place of its attenuation", "[bridge]")

@@ -14,12 +14,7 @@ constexpr float kPi = 3.14159265f;
 void addHalfSpace(SceneBuilder& builder, const Medium& medium, float ior)
 {
     builder.add(boxMesh({-60, -60, -60}, {60, 60, 0}), bodyOf(medium, ior));
-    Light sky;
-    sky.kind = LightKind::Environment;
-    sky.radiance = Vec3(1.0f);
-    sky.environment.image =
-        newEnvironment(16, 8, [](Vec3d d) { return Vec3(d.z > 0.0 ? 1.0f : 0.0f); });
-    builder.addLight(sky);
+    addHalfSky(builder, true);
 }
 
 /// Returns a plate just above the slab, which has a hole of the area of a circle.

@@ -8,20 +8,6 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-void addWhiteSky(SceneBuilder& builder)
-{
-    Light sky;
-    sky.kind = LightKind::Environment;
-    sky.radiance = Vec3(1.0f);
-    sky.environment.image = newEnvironment(4, 2, Vec3(1.0f));
-    builder.addLight(sky);
-}
-
-View alongX(double from, double towards = 1.0)
-{
-    return perspectiveView({from, 0.1, 0.2}, {from + towards, 0.1, 0.2}, {0, 0, 1}, 1e-3, 4, 4);
-}
-
 /// Adds walls that shine with radiance 1 at both ends of the x axis.
 void addShiningWalls(SceneBuilder& builder, float distance)
 {
@@ -139,7 +125,7 @@ TEST_CASE("media: whatever goes nearly straight on keeps the light of a white sk
     {
         SceneBuilder builder;
         builder.add(sphereMesh(Vec3(0.0f), 1.0f, 24), bodyOf(mediumOf(3.0f, 1.0f, g)));
-        addWhiteSky(builder);
+        addSky(builder);
         const Estimate seen = measure(builder.build(), patchView({0, 0, 4}, {0, 0, 1}, 1.0, 16),
                                       optionsOf(IntegratorKind::Path, 64), 4);
         CAPTURE(g, seen.mean(), seen.standardError());

@@ -1,5 +1,6 @@
 // MediaShapesTest.cpp - the mean length of ways through bodies of many shapes.
 // SPDX-License-Identifier: MIT
+#include "tests/EnclosedVolume.h"
 #include "tests/integrators/MediaScenes.h"
 
 using namespace osgRayTrace::engine;
@@ -76,16 +77,6 @@ std::shared_ptr<Mesh> both(const std::shared_ptr<Mesh>& a, const std::shared_ptr
     return newMesh(positions, triangles);
 }
 
-/// Returns the volume that a closed mesh encloses, by the divergence theorem.
-double volumeOf(const Mesh& mesh)
-{
-    double sum = 0.0;
-    for (const UVec3& t : mesh.triangles)
-        sum += glm::dot(Vec3d(mesh.positions[t.x]),
-                        glm::cross(Vec3d(mesh.positions[t.y]), Vec3d(mesh.positions[t.z])));
-    return sum / 6.0;
-}
-
 std::shared_ptr<Mesh> tetrahedron()
 {
     return newMesh({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
@@ -140,7 +131,7 @@ TEST_CASE("media: what a body emits comes out, however it scatters and whatever 
             SceneBuilder builder;
             builder.add(mesh, bodyOf(medium, ior));
             const auto traced = builder.build();
-            const double volume = volumeOf(*mesh), side = 4.4;
+            const double volume = enclosedVolume(*mesh), side = 4.4;
             Uniform random(5);
             Estimate flux;
             for (uint32_t k = 0; k < 384; ++k)

@@ -8,26 +8,10 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Adds a sky that is white on one half of all directions.
-void addHalfSky(SceneBuilder& builder, bool above)
-{
-    Light sky;
-    sky.kind = LightKind::Environment;
-    sky.radiance = Vec3(1.0f);
-    sky.environment.image = newEnvironment(
-        16, 8, [above](Vec3d d) { return Vec3((d.z > 0.0) == above ? 1.0f : 0.0f); });
-    builder.addLight(sky);
-}
-
 /// Adds a wall that shines with radiance 1 towards -x.
 void addShiningWall(SceneBuilder& builder, float x)
 {
     builder.add(quadMesh({x, -9, -9}, {0, 0, 18}, {0, 18, 0}), lamp(Vec3(1.0f)));
-}
-
-View alongX(double from)
-{
-    return perspectiveView({from, 0.1, 0.2}, {from + 1, 0.1, 0.2}, {0, 0, 1}, 1e-3, 4, 4);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/scene/Bodies.h"
 
 #include <osgRayTrace/AreaLight>
 
@@ -27,13 +28,6 @@ namespace
 constexpr float kViewerAmbient = 0.1f;
 constexpr float kOpenGLAmbient = 0.2f;
 constexpr uint32_t kOwnVariant = GeometryCache::kOwnVariant;
-
-/// Returns whether light enters the surfaces of a material, and meets something behind them.
-bool hasInterior(const Material& m)
-{
-    return m.model == MaterialModel::Physical && m.detail && m.detail->fillsBody() &&
-           (m.transmission > 0.0f || m.detail->diffuseTransmission > 0.0f);
-}
 
 } // namespace
 
@@ -143,7 +137,8 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
 /// Warns if a geometry has an interior, but does not enclose it.
 void SceneBuilder::warnIfOpen(const CollectedGeometry& geometry, const Instance& instance)
 {
-    if (!hasInterior(_convertedGraph.materials[instance.material])) return;
+    const Material& material = _convertedGraph.materials[instance.material];
+    if (!enclosesBody(material) || !material.detail || !material.detail->fillsBody()) return;
     if (_caches.closedMeshes.isClosed(*_scene.meshes[instance.mesh])) return;
     _report.warn("warned.open-body", "geometry '" + geometry.path + "'",
                  "the interior is not enclosed: rays that leave through a hole take it along");
