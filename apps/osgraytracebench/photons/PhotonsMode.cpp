@@ -11,9 +11,10 @@ void measurePhotons(const PhotonsOptions& options, Rows& rows)
 {
     const auto wanted = [&](const std::string& part)
     { return part.find(options.only) != std::string::npos; };
-    if (!wanted("lookup") && !wanted("tracing") && !wanted("error"))
+    if (!wanted("lookup") && !wanted("beams") && !wanted("tracing") && !wanted("error"))
         throw app::Failure(app::kUsage, "--only " + options.only + ": no part has this name");
     if (wanted("lookup")) measurePhotonLookups(options, rows);
+    if (wanted("beams")) measurePhotonBeams(options, rows);
     if (wanted("tracing")) measurePhotonRays(options, rows);
     if (wanted("error") && options.width > 0) measurePhotonErrors(options, rows);
 }

@@ -22,13 +22,14 @@ struct PhotonsOptions
         1000000; ///< photons for look-ups and building; tracing emits about a quarter of it
 };
 
-/// Measures look-ups and building against a plain grid, tracing against Embree alone on the same
-/// rays, and error against time of all methods with photons, and of path tracing. Throws
-/// app::Failure.
+/// Measures look-ups and building against a plain grid, the time of beams in media, tracing against
+/// Embree alone on the same rays, and error against time of all methods with photons, and of path
+/// tracing. Throws app::Failure.
 void measurePhotons(const PhotonsOptions& options, Rows& rows);
 
-/// Measures one part of measurePhotons, as the next two functions do.
+/// Measures one part of measurePhotons, as the next three functions do.
 void measurePhotonLookups(const PhotonsOptions& options, Rows& rows);
+void measurePhotonBeams(const PhotonsOptions& options, Rows& rows);
 void measurePhotonRays(const PhotonsOptions& options, Rows& rows);
 void measurePhotonErrors(const PhotonsOptions& options, Rows& rows);
 
