@@ -18,27 +18,48 @@ constexpr float kMostPieces = 64.0f;
 
 constexpr float kLog2E = 1.44269504f;
 
+/// Holds a bundle and how far from its rays something counts. What a loop over lanes does stands in
+/// a function of one lane: vectors that are declared in such a loop keep GCC from vectorizing it.
+struct Neighbourhood
+{
+    PlainVec3 origin, axis;
+    float begin, end, slope, distance;
+    float width; ///< the bundle's radius and the distance
+
+    OSGRAYTRACE_INLINE Neighbourhood(const RayBundle& bundle, float reach)
+        : origin(plainOf(bundle.origin)),
+          axis(plainOf(bundle.axis)),
+          begin(bundle.begin),
+          end(bundle.end),
+          slope(bundle.slope),
+          distance(reach),
+          width(bundle.radius + reach)
+    {
+    }
+};
+
+OSGRAYTRACE_INLINE uint32_t isNodeNear(const BoxTree::Node& node, int i, const Neighbourhood& rays)
+{
+    const PlainVec3 w = plainOf(node.centre, i) - rays.origin;
+    const float radius = node.radius[i];
+    const float along = dot(w, rays.axis);
+    const float later = select(along > rays.begin, along, rays.begin);
+    const float t = select(later < rays.end, later, rays.end);
+    const PlainVec3 off = mad(rays.axis, -t, w);
+    // The slope holds at the end of the sphere that is farther away.
+    const float reach = rays.width + radius + rays.slope * (t + radius + rays.distance);
+    return maskOf(dot(off, off) <= reach * reach) & maskOf(radius >= 0.0f);
+}
+
 /// Returns the boxes of a node that may come within a distance of the rays of a bundle.
 OSGRAYTRACE_KERNEL
 LaneMask nodesNear(const BoxTree::Node& node, const RayBundle& bundle, float distance)
 {
-    const PlainVec3 origin = plainOf(bundle.origin), axis = plainOf(bundle.axis);
-    const float begin = bundle.begin, end = bundle.end, slope = bundle.slope;
-    const float width = bundle.radius + distance;
+    const Neighbourhood rays(bundle, distance);
     LaneMask near = 0;
     OSGRAYTRACE_SIMD_OR(near)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const PlainVec3 w = plainOf(node.centre, i) - origin;
-        const float radius = node.radius[i];
-        const float along = dot(w, axis);
-        const float later = along > begin ? along : begin;
-        const float t = later < end ? later : end;
-        const PlainVec3 off = mad(axis, -t, w);
-        // The slope holds at the end of the sphere that is farther away.
-        const float reach = width + radius + slope * (t + radius + distance);
-        near |= bitOfLane(maskOf(dot(off, off) <= reach * reach) & maskOf(radius >= 0.0f), i);
-    }
+        near |= bitOfLane(isNodeNear(node, i, rays), i);
     return near;
 }
 
@@ -48,35 +69,37 @@ struct Crossings
     FloatLanes along, onBeam, sine2, cosine;
 };
 
+/// Sets lane i of crossings. Returns all bits if the ray passes the piece within the radius.
+OSGRAYTRACE_INLINE uint32_t crossLane(const BeamPiece& piece, const RayBlock& ray,
+                                      const BeamQuery& q, int i, Crossings& c)
+{
+    const PlainVec3 beam = piece.direction;
+    const PlainVec3 d = plainDirection(ray, i);
+    const PlainVec3 w = piece.origin - plainOrigin(ray, i);
+    const PlainVec3 n = cross(d, beam);
+    const float sine2 = dot(n, n);
+    const float inverse = 1.0f / select(sine2 > 1e-20f, sine2, 1e-20f);
+    const float height = dot(w, n);
+    const float along = dot(cross(w, beam), n) * inverse;
+    const float onBeam = dot(cross(w, d), n) * inverse;
+    c.along[i] = along;
+    c.onBeam[i] = onBeam;
+    c.sine2[i] = sine2;
+    c.cosine[i] = dot(d, beam);
+    return maskOf(height * height <= q.radius * q.radius * sine2) & maskOf(along >= q.begin[i]) &
+           maskOf(along < q.end[i]) & maskOf(onBeam >= piece.begin) & maskOf(onBeam < piece.end) &
+           maskOf(static_cast<int32_t>(q.medium[i]) == piece.medium) & maskOf(sine2 > 1e-20f);
+}
+
 /// Returns the lanes whose rays pass a piece within the radius.
 OSGRAYTRACE_INLINE LaneMask crossingsOf(const BeamPiece& piece, const BeamQuery& q, Crossings& c)
 {
     const RayBlock& ray = *q.ray;
-    const PlainVec3 beam = piece.direction, from = piece.origin;
-    const float begin = piece.begin, end = piece.end, radius2 = q.radius * q.radius;
-    const int32_t medium = piece.medium;
+    const BeamPiece beam = piece;
     LaneMask lanes = 0;
     OSGRAYTRACE_SIMD_OR(lanes)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const PlainVec3 d = plainDirection(ray, i);
-        const PlainVec3 w = from - plainOrigin(ray, i);
-        const PlainVec3 n = cross(d, beam);
-        const float sine2 = dot(n, n);
-        const float inverse = 1.0f / (sine2 > 1e-20f ? sine2 : 1e-20f);
-        const float height = dot(w, n);
-        const float along = dot(cross(w, beam), n) * inverse;
-        const float onBeam = dot(cross(w, d), n) * inverse;
-        const uint32_t in =
-            maskOf(height * height <= radius2 * sine2) & maskOf(along >= q.begin[i]) &
-            maskOf(along < q.end[i]) & maskOf(onBeam >= begin) & maskOf(onBeam < end) &
-            maskOf(static_cast<int32_t>(q.medium[i]) == medium) & maskOf(sine2 > 1e-20f);
-        c.along[i] = along;
-        c.onBeam[i] = onBeam;
-        c.sine2[i] = sine2;
-        c.cosine[i] = dot(d, beam);
-        lanes |= bitOfLane(in, i);
-    }
+        lanes |= bitOfLane(crossLane(beam, ray, q, i, c), i);
     return lanes & q.lanes;
 }
 
@@ -84,8 +107,8 @@ OSGRAYTRACE_INLINE float left(float sigmaT, float distance)
 {
     // Lanes that no beam crosses may have any distance, or none.
     const float exponent = -kLog2E * sigmaT * distance;
-    const float below = exponent < 0.0f ? exponent : 0.0f;
-    return exp2Lanes(below > -126.0f ? below : -126.0f);
+    const float below = select(exponent < 0.0f, exponent, 0.0f);
+    return exp2Lanes(select(below > -126.0f, below, -126.0f));
 }
 
 /// Adds what a piece scatters towards the rays that pass it.
@@ -98,10 +121,10 @@ OSGRAYTRACE_INLINE void addCrossings(const BeamPiece& piece, const BeamQuery& q,
     for (int i = 0; i < kLanes; ++i)
     {
         const float root = std::sqrt(c.sine2[i]);
-        const float sine = root > leastSine ? root : leastSine;
+        const float sine = select(root > leastSine, root, leastSine);
         // The phase function of light that turns from the beam to the ray: PhaseFunction.h.
         const float g = q.anisotropy[i], size = std::fabs(g);
-        const float cosTheta = g < 0.0f ? c.cosine[i] : -c.cosine[i];
+        const float cosTheta = select(g < 0.0f, c.cosine[i], -c.cosine[i]);
         const float d = (1.0f - size) * (1.0f - size) + 2.0f * size * (1.0f - cosTheta);
         const float phase = 0.25f * kInvPi * (1.0f - g * g) / (d * std::sqrt(d));
         const float way = c.along[i] - q.begin[i] + c.onBeam[i];
@@ -218,35 +241,43 @@ void BeamPieces::add(const BeamPiece& piece)
     _pieces.push_back(piece);
 }
 
-/// Tests the segments that the pieces are as seen along the axis: segments in a plane, which must
-/// come as near to the axis as the bundle is wide where the piece is farthest.
+namespace
+{
+
+/// Tests the segment that a piece is as seen along the axis: a segment in a plane, which must come
+/// as near to the axis as the bundle is wide where the piece is farthest.
+OSGRAYTRACE_INLINE uint32_t isPieceNear(const Vec3Lanes& begins, const Vec3Lanes& ends, int i,
+                                        const Neighbourhood& rays)
+{
+    const PlainVec3 low = plainOf(begins, i) - rays.origin;
+    const PlainVec3 high = plainOf(ends, i) - rays.origin;
+    const float lowAlong = dot(low, rays.axis), highAlong = dot(high, rays.axis);
+    const uint32_t ahead = maskOf(lowAlong < highAlong);
+    const float nearest = select(ahead, lowAlong, highAlong);
+    const float farthest = select(ahead, highAlong, lowAlong);
+    const float reach = rays.width + rays.slope * rays.distance +
+                        rays.slope * select(farthest > 0.0f, farthest, 0.0f);
+    const PlainVec3 a = mad(rays.axis, -lowAlong, low), b = mad(rays.axis, -highAlong, high);
+    const PlainVec3 ab = b - a;
+    const float length2 = dot(ab, ab);
+    const float part = -dot(a, ab) / select(length2 > 1e-30f, length2, 1e-30f);
+    const float most = select(part < 1.0f, part, 1.0f);
+    const PlainVec3 off = mad(ab, select(most > 0.0f, most, 0.0f), a);
+    return maskOf(dot(off, off) <= reach * reach * 1.0002f) &
+           maskOf(farthest >= rays.begin - reach) & maskOf(nearest <= rays.end + reach);
+}
+
+} // namespace
+
 OSGRAYTRACE_KERNEL
 LaneMask BeamPieces::near(std::size_t first, const RayBundle& bundle, float distance) const
 {
     const Ends& ends = _ends[first / kLanes];
-    const PlainVec3 origin = plainOf(bundle.origin), axis = plainOf(bundle.axis);
-    const float begin = bundle.begin, end = bundle.end, slope = bundle.slope;
-    const float width = bundle.radius + distance + slope * distance;
+    const Neighbourhood rays(bundle, distance);
     LaneMask near = 0;
     OSGRAYTRACE_SIMD_OR(near)
     for (int i = 0; i < kLanes; ++i)
-    {
-        const PlainVec3 low = plainOf(ends.begin, i) - origin;
-        const PlainVec3 high = plainOf(ends.end, i) - origin;
-        const float lowAlong = dot(low, axis), highAlong = dot(high, axis);
-        const float nearest = lowAlong < highAlong ? lowAlong : highAlong;
-        const float farthest = lowAlong < highAlong ? highAlong : lowAlong;
-        const float reach = width + slope * (farthest > 0.0f ? farthest : 0.0f);
-        const PlainVec3 a = mad(axis, -lowAlong, low), b = mad(axis, -highAlong, high);
-        const PlainVec3 ab = b - a;
-        const float length2 = dot(ab, ab);
-        const float part = -dot(a, ab) / (length2 > 1e-30f ? length2 : 1e-30f);
-        const float most = part < 1.0f ? part : 1.0f;
-        const PlainVec3 off = mad(ab, most > 0.0f ? most : 0.0f, a);
-        near |= bitOfLane(maskOf(dot(off, off) <= reach * reach * 1.0002f) &
-                              maskOf(farthest >= begin - reach) & maskOf(nearest <= end + reach),
-                          i);
-    }
+        near |= bitOfLane(isPieceNear(ends.begin, ends.end, i, rays), i);
     const std::size_t left = _pieces.size() - first;
     return left < kLanes ? near & ((1u << left) - 1u) : near;
 }

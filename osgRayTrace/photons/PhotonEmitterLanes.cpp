@@ -131,6 +131,25 @@ EmissionLanes chooseBins(const Source& source, const EmissionLanes& e, const Poi
 }
 
 /// Samples directions, guided or as the light shines.
+OSGRAYTRACE_INLINE PlainVec3 direction(const Source& s, const EmissionLanes& e, const PointLanes& p,
+                                       int i)
+{
+    const float share = select(p.total[i] > 0.0f, s.guidedShare, 0.0f);
+    const uint32_t guided = maskOf(e.choice[i] < share);
+    const float rest = (e.choice[i] - share) / (1.0f - share);
+    const float side = select(s.twoSided & maskOf(rest >= 0.5f), -1.0f, 1.0f);
+    const PlainVec3 axis = select(guided, plainOf(p.chosenAxis, i), plainOf(s.normal) * side);
+
+    float sine, cosine;
+    sinCosTurn(e.directionU[i], sine, cosine);
+    const float v = e.directionV[i];
+    // Guided directions are uniform in a cone (see squareToCone), the others go by the cosine.
+    const float height = v * p.chosenCone[i];
+    const float lz = select(guided, 1.0f - height, std::sqrt(1.0f - v));
+    const float radius = std::sqrt(select(guided, height * (2.0f - height), v));
+    return toWorld(frameOf(axis), {radius * cosine, radius * sine, lz});
+}
+
 OSGRAYTRACE_KERNEL
 void directions(const Source& source, const EmissionLanes& e, const PointLanes& p,
                 StartLanes& starts)
@@ -138,23 +157,7 @@ void directions(const Source& source, const EmissionLanes& e, const PointLanes& 
     const Source s = source;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
-    {
-        const float share = select(p.total[i] > 0.0f, s.guidedShare, 0.0f);
-        const uint32_t guided = maskOf(e.choice[i] < share);
-        const float rest = (e.choice[i] - share) / (1.0f - share);
-        const float side = select(s.twoSided & maskOf(rest >= 0.5f), -1.0f, 1.0f);
-        const PlainVec3 axis = select(guided, plainOf(p.chosenAxis, i), plainOf(s.normal) * side);
-
-        float sine, cosine;
-        sinCosTurn(e.directionU[i], sine, cosine);
-        const float v = e.directionV[i];
-        // Guided directions are uniform in a cone (see squareToCone), the others go by the cosine.
-        const float height = v * p.chosenCone[i];
-        const float lz = select(guided, 1.0f - height, std::sqrt(1.0f - v));
-        const float radius = std::sqrt(select(guided, height * (2.0f - height), v));
-        const PlainVec3 local{radius * cosine, radius * sine, lz};
-        setLane(starts.direction, i, toWorld(frameOf(axis), local));
-    }
+        setLane(starts.direction, i, direction(s, e, p, i));
 }
 
 /// Counts the cones that directions lie in.

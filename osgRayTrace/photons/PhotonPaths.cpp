@@ -93,16 +93,24 @@ void secondPhotonPoints(const UintLanes& photons, uint32_t seed, FloatLanes& v)
     }
 }
 
+namespace
+{
+
+/// Returns a cosine-distributed direction around the normal.
+OSGRAYTRACE_INLINE PlainVec3 cosineDirection(PlainVec3 normal, float u, float v)
+{
+    return toWorld(frameOf(normal), squareToCosineHemispherePlain(u, v));
+}
+
+} // namespace
+
 OSGRAYTRACE_KERNEL
 void diffuseDirections(const Vec3Lanes& normal, const FloatLanes& u, const FloatLanes& v,
                        Vec3Lanes& wi)
 {
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
-    {
-        const PlainVec3 local = squareToCosineHemispherePlain(u[i], v[i]);
-        setLane(wi, i, toWorld(frameOf(plainOf(normal, i)), local));
-    }
+        setLane(wi, i, cosineDirection(plainOf(normal, i), u[i], v[i]));
 }
 
 /// power_{k+1} of the estimator in PhotonTracer.cpp. Shading normals n other than the geometric

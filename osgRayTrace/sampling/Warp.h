@@ -24,10 +24,10 @@ OSGRAYTRACE_INLINE void sinCosTurn(float turn, float& sine, float& cosine)
         (1.0f + x2 * (-1.0f / 6 + x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 * (1.0f / 362880)))));
     const float c =
         1.0f + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
-    const float swappedSine = (quarter & 1) ? c : s;
-    const float swappedCosine = (quarter & 1) ? s : c;
-    sine = (quarter & 2) ? -swappedSine : swappedSine;
-    cosine = ((quarter + 1) & 2) ? -swappedCosine : swappedCosine;
+    const bool swapped = (quarter & 1) != 0;
+    const float swappedSine = select(swapped, c, s), swappedCosine = select(swapped, s, c);
+    sine = select((quarter & 2) != 0, -swappedSine, swappedSine);
+    cosine = select(((quarter + 1) & 2) != 0, -swappedCosine, swappedCosine);
 }
 
 /// Returns a cosine-distributed direction around +z: pdfW = cosTheta / pi.
@@ -36,7 +36,8 @@ OSGRAYTRACE_INLINE PlainVec3 squareToCosineHemispherePlain(float u, float v)
     float sine, cosine;
     sinCosTurn(u, sine, cosine);
     const float radius = std::sqrt(v);
-    return {radius * cosine, radius * sine, std::sqrt(1.0f - v > 0.0f ? 1.0f - v : 0.0f)};
+    const float height2 = 1.0f - v;
+    return {radius * cosine, radius * sine, std::sqrt(select(height2 > 0.0f, height2, 0.0f))};
 }
 
 OSGRAYTRACE_INLINE Vec3 squareToCosineHemisphere(float u, float v)
@@ -71,7 +72,7 @@ struct PlainFrame
 /// The frame around a unit normal [Duff17, listing 3].
 OSGRAYTRACE_INLINE PlainFrame frameOf(PlainVec3 n)
 {
-    const float sign = n.z >= 0.0f ? 1.0f : -1.0f;
+    const float sign = select(n.z >= 0.0f, 1.0f, -1.0f);
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
     return {
