@@ -24,7 +24,17 @@ TracedUse SceneBuilder::newProxy(const CollectedGeometry& geometry, const Geomet
     instance.material = _convertedGraph.materials.add(material);
     instance.changed = _rules.now;
     _report.count("traced.proxy");
-    return {appendInstance(instance), kInvalid};
+    return {appendInstance(instance), kInvalid, proxyEffects(use.state)};
+}
+
+/// Returns the index of the effects of a proxy with this state.
+uint32_t SceneBuilder::proxyEffects(uint32_t state)
+{
+    std::optional<StateEffects>& known = _effects[state];
+    if (!known) known = stateEffectsOf(_graph.states[state], _caches.textures);
+    StateEffects wanted = *known;
+    wanted.proxied = true;
+    return _convertedGraph.index.effects(wanted);
 }
 
 /// Returns where the omissions of a geometry are counted: nowhere if OSG draws all of its uses.

@@ -68,6 +68,7 @@ private:
     void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addNothing(const CollectedGeometry& geometry, const GeometryUse& use);
     uint32_t effects(uint32_t state, const ConversionCounts& counts);
+    uint32_t proxyEffects(uint32_t state);
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
     uint32_t appendInstance(const Instance& instance);

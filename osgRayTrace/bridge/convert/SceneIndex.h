@@ -21,6 +21,7 @@ namespace osgRayTrace::engine
 struct StateEffects
 {
     const char* rasterized = nullptr; ///< see rasterizedState
+    bool proxied = false;             ///< OSG draws the use, and it has a proxy: see hasProxy
     uint64_t restart = 0;
     float depthBias = 0.0f;
     bool physical = false;
@@ -41,6 +42,9 @@ struct TracedUse
 {
     uint32_t instance = kInvalid; ///< kInvalid: the use is not traced
     uint32_t effects = kInvalid;  ///< kInvalid: OSG draws the use
+    /// Index of the effects with which OSG draws the use: all of them for a proxy, else rasterized
+    /// and proxied alone. kInvalid: the use is traced, or what it is drawn with is not known.
+    uint32_t left = kInvalid;
 };
 
 struct TracedGeometry
@@ -90,6 +94,7 @@ struct SceneIndex
     std::size_t colorUses() const { return _colorUses; }
 
 private:
+    uint32_t leftEffects(const LeftState& left);
     bool setsColor(const TracedUse& use) const
     {
         return use.effects != kInvalid && stateEffects[use.effects].setsColor;

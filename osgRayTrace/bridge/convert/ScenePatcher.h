@@ -65,6 +65,9 @@ private:
     bool changeStates(const std::vector<StateChange>& uses);
     bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
                      ConversionReport& report);
+    bool changeLeft(const StateChange& use, const TracedUse& traced, const GraphState& state,
+                    StateEffects effects, const SurfacePlacement& place,
+                    MaterialConverter& converter);
     bool relightLamps();
     bool relight();
     void setBackground();

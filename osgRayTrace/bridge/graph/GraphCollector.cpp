@@ -222,7 +222,9 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const AssignedState assigned = assignedState(geometry);
     if (_leftToOsg > 0 || (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)))
     {
-        if (isProxied(geometry)) collectUse(posed, assigned.state, true);
+        const bool proxied = isProxied(geometry);
+        recordLeft(geometry, assigned.state, proxied);
+        if (proxied) collectUse(posed, assigned.state, true);
         return;
     }
     if (assigned.by) _report.countFor("traced.by-rule", "'" + *assigned.by + "'");

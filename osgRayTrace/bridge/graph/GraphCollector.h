@@ -117,6 +117,7 @@ private:
     AssignedState assignedState(const osg::Drawable& drawable);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
+    void recordLeft(const osg::Geometry& geometry, uint32_t state, bool proxied);
     float pointRadiusOf(const osg::Geometry& geometry);
     void recordInScene();
     void recordAllInScene();

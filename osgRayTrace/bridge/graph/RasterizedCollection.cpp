@@ -209,6 +209,15 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed, uin
     return false; // primitive sets without triangles are counted where triangles are made
 }
 
+/// Records why OSG draws the geometry, whose state has this number, if it is a part of its own.
+void GraphCollector::recordLeft(const osg::Geometry& geometry, uint32_t state, bool proxied)
+{
+    if (_graph.rasterized.empty()) return;
+    RasterizedPart& part = _graph.rasterized.back();
+    if (part.path.empty() || part.path.back() != &geometry) return;
+    part.left = {rasterizedState(_states.states()[state], _textures, nullptr), proxied};
+}
+
 /// Returns the radius of the geometry's points and lines, and names a geometry that has too many.
 float GraphCollector::pointRadiusOf(const osg::Geometry& geometry)
 {
