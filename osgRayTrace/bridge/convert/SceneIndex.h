@@ -5,11 +5,12 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
-#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
 
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -45,6 +46,7 @@ struct TracedUse
     /// Index of the effects with which OSG draws the use: all of them for a proxy, else rasterized
     /// and proxied alone. kInvalid: the use is traced, or what it is drawn with is not known.
     uint32_t left = kInvalid;
+    uint32_t subtree = kNoSubtree; ///< index into ConvertedGraph::subtrees
 };
 
 struct TracedGeometry
@@ -56,6 +58,7 @@ struct TracedGeometry
     bool raised = false; ///< true: its only use has raised faces, in a mesh made at its place
     bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
     bool plain = true;   ///< true: only its conversion is counted
+    std::unique_ptr<const ConversionCounts> remarks; ///< what else is counted; null: nothing
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.

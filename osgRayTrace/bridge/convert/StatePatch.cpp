@@ -27,6 +27,13 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
     const bool setsColor = _convertedGraph.index.colorUses() > 0; // see MaterialRules
     if (_recolors && setsColor != _convertedGraph.setsColor) // this rule holds for all materials
         return refuse(ConversionCause::CurrentColor, uses.front().path);
+    takeNewMaterials();
+    return true;
+}
+
+/// Gives instances their new materials.
+void ScenePatcher::takeNewMaterials()
+{
     for (const auto& [instance, material] : _newMaterials)
         _convertedGraph.materials.release(_scene->instances[instance].material);
     for (const auto& [index, material] : _newMaterials)
@@ -38,7 +45,7 @@ bool ScenePatcher::changeStates(const std::vector<StateChange>& uses)
         instance.changed = _now;
         _changed = true;
     }
-    return true;
+    _newMaterials.clear();
 }
 
 bool ScenePatcher::changeState(const StateChange& use, StateStack& states,

@@ -104,7 +104,7 @@ void GraphCollector::collectVolume(osg::Group& group)
         traverseGroup(group);
         return;
     }
-    recordInScene();
+    recordSpecial();
     const bool pushed = pushState(group);
     const GraphState& state = _states.states()[_states.top()];
     CollectedTile found{tile, engineFromLocal(), path(),
@@ -157,10 +157,10 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     if (!_input.rasterizesRest || _leftToOsg > 0) return;
     if (_isLeft && kind == RasterizedPart::Draw)
     {
-        if (const osg::Geometry* geometry = getNodePath().back()->asGeometry())
-            _graph.leftGeometries.push_back(geometry);
+        if (const osg::Geometry* geometry = getNodePath().back()->asGeometry()) leave(*geometry);
         return;
     }
+    _graph.rasterizedSubtrees.push_back(subtree());
     _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
     _graph.rasterized.back().inPlace = inPlace;
     _graph.rasterizedPaths.push_back(pickPath());
