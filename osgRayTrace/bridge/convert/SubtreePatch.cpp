@@ -19,11 +19,17 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Returns whether OSG draws all of what is below one of the nodes above the last one, by a hint.
-bool isHintedAbove(const osg::NodePath& path)
+/// Returns whether OSG may draw all of what is below one of the nodes above the last one: by a
+/// hint, or since the node's mask hides it from some of the views.
+bool isLeftAbove(const osg::NodePath& path, const std::vector<unsigned int>& viewMasks)
 {
-    return std::any_of(path.begin(), path.end() - 1,
-                       [](const osg::Node* node) { return ownHint(*node) != DrawHint::None; });
+    const auto mayBeLeft = [&viewMasks](const osg::Node* node)
+    {
+        return ownHint(*node) != DrawHint::None ||
+               std::any_of(viewMasks.begin(), viewMasks.end(),
+                           [node](unsigned int mask) { return (node->getNodeMask() & mask) == 0; });
+    };
+    return std::any_of(path.begin(), path.end() - 1, mayBeLeft);
 }
 
 /// Drops what is known to have no proxy, as it would enclose the scene.
@@ -66,7 +72,7 @@ bool ScenePatcher::redo(const ChangedSubtree& changed)
     const osg::NodePath path = fromRoot(changed.path);
     const auto refuseAll = [&](ConversionCause cause) { return refuse(cause, path); };
     const uint32_t subtree = _convertedGraph.subtrees.find(path);
-    if (subtree == kNoSubtree || !_input.viewMasks.empty() || isHintedAbove(path))
+    if (subtree == kNoSubtree || isLeftAbove(path, _input.viewMasks))
         return refuseAll(changed.cause);
     if (_input.assignsMaterials()) return refuseAll(ConversionCause::MaterialFile);
     if (!_redone.insert(subtree).second) return true;
