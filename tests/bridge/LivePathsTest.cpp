@@ -186,7 +186,7 @@ TEST_CASE("live paths: a transform that has lost what only a conversion moves is
     LiveView view(graph.root.get());
     view.image();
     holder->setMatrix(at(0.1, -0.9));
-    CHECK(updateOf(view, *graph.root) == kConverted);
+    CHECK(updateOf(view, *graph.root) == kPatched);
     holder->removeChild(levels);
     CHECK(updateOf(view, *graph.root) == kConverted);
     holder->setMatrix(at(0.2, -0.9));

@@ -4,6 +4,7 @@
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 
+#include <osgRayTrace/AreaLight>
 #include <osgRayTrace/PhysicalMaterial>
 #include <osgRayTrace/RayTracedScene>
 
@@ -123,15 +124,20 @@ TEST_CASE("reasons: edits of nodes", "[bridge]")
             graph.group->addChild(graph.objects[0]);
         },
         ConversionCause::ChildOrder, "root/group");
+    reasons.isPatched([&] { reasons.levels->getChild(0)->setNodeMask(0); });
+    reasons.isPatched([&] { reasons.levels->getChild(0)->setNodeMask(~0u); });
+    reasons.isPatched([&] { reasons.holder->setMatrix(osg::Matrixd::translate(0.1, 0.0, 0.0)); });
+    reasons.isPatched(
+        [&]
+        { reasons.holder->getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON); });
+    reasons.converts([&] { reasons.levels->addChild(new AreaLight, 0.0f, 1e6f); },
+                     ConversionCause::Untracked, "root/holder/levels");
     reasons.converts([&] { reasons.levels->getChild(0)->setNodeMask(0); },
                      ConversionCause::Untracked, "root/holder/levels");
-    reasons.converts([&] { reasons.levels->getChild(0)->setNodeMask(~0u); },
-                     ConversionCause::Untracked, "root/holder/levels");
-    reasons.converts([&] { reasons.holder->setMatrix(osg::Matrixd::translate(0.1, 0.0, 0.0)); },
-                     ConversionCause::MovedSpecial, "root/holder");
+    reasons.converts([&] { reasons.holder->setMatrix(osg::Matrixd::translate(0.2, 0.0, 0.0)); },
+                     ConversionCause::MovedSpecial, "root/holder/levels");
     reasons.converts(
-        [&]
-        { reasons.holder->getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON); },
+        [&] { reasons.holder->getStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::OFF); },
         ConversionCause::UntrackedState, "root/holder/levels");
     reasons.converts([&] { reasons.many->setAllChildrenOff(); }, ConversionCause::ManyEdits,
                      "root/many/Group");

@@ -3,11 +3,14 @@
 #include "tests/Catch.h"
 #include "tests/bridge/LiveGraph.h"
 
+#include <osg/Billboard>
 #include <osg/CullFace>
 #include <osg/Geometry>
+#include <osg/LOD>
 #include <osg/PolygonOffset>
 
 #include <functional>
+#include <vector>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
@@ -98,4 +101,92 @@ TEST_CASE("at rest: raised faces move, deform, come and go alone", "[bridge]")
     raise(*more);
     edit("one more", [&] { graph.root->addChild(more); });
     edit("which moves", [&] { more->setMatrix(osg::Matrixd::translate(0.3, 0.5, 1.0)); });
+}
+
+TEST_CASE("at rest: a level of detail whose content is replaced is redone alone", "[bridge]")
+{
+    LiveGraph graph;
+    const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    const auto newTile = [&](double x, double z)
+    {
+        const osg::ref_ptr<osg::MatrixTransform> tile = graph.newObject(3, 0.0, 0.0);
+        tile->setMatrix(osg::Matrixd::translate(x, 0.45, z)); // in no plane of others
+        return tile;
+    };
+    levels->addChild(newTile(1.3, 0.55), 0.0f, 1e6f);
+    levels->addChild(newTile(0.2, 0.85), 0.0f, 1e6f);
+    graph.root->addChild(levels);
+    LiveView view(graph.root);
+    const auto check = [&]
+    {
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+        CAPTURE(view.statistics().lastConversionReason);
+        CHECK(view.statistics().conversions == 1);
+        LiveView fresh(graph.root);
+        CHECK(view.statistics().conversion == fresh.statistics().conversion);
+    };
+    std::vector<float> placed;
+    for (int time = 0; time < 3; ++time)
+    {
+        levels->setChild(0, newTile(1.3, 0.55));
+        check();
+        if (time == 1) placed = view.lastImage();
+        if (time == 2) CHECK(placed == view.lastImage()); // an equal tile, bit for bit
+    }
+    const std::vector<float> then = view.lastImage();
+    levels->setChild(0, newTile(0.9, 0.65));
+    check();
+    CHECK(differentPixels(view.lastImage(), then) > kRoundedPixels);
+    levels->setRange(1, 0.0f, 1e-3f);
+    check();
+    levels->setRange(1, 0.0f, 1e6f);
+    check();
+    // A tile on two paths: its mesh is shared.
+    const osg::ref_ptr<osg::MatrixTransform> again = new osg::MatrixTransform;
+    again->setMatrix(osg::Matrixd::translate(-0.6, 0.2, 0.4));
+    again->addChild(levels->getChild(1));
+    levels->addChild(again, 0.0f, 1e6f);
+    check();
+    levels->removeChild(again);
+    check();
+    graph.materials[0]->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 0, 0, 1));
+    check();
+}
+
+TEST_CASE("at rest: what depends on the view is redone for the view of now", "[bridge]")
+{
+    LiveGraph graph;
+    const osg::Vec3d fresh(1.2, -1.5, 4.0), elsewhere(-9.0, 14.0, 2.0); // fresh: of LiveView
+    SECTION("billboards")
+    {
+        const osg::ref_ptr<osg::Billboard> billboard = new osg::Billboard;
+        billboard->setMode(osg::Billboard::POINT_ROT_WORLD);
+        billboard->setNormal(osg::Vec3(0, 0, 1));
+        billboard->addDrawable(graph.newObject(0, 0.0, 0.0)->getChild(0)->asGeometry(),
+                               osg::Vec3(0.4f, 0.3f, 1.0f));
+        graph.root->addChild(billboard);
+    }
+    SECTION("levels of detail")
+    {
+        const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+        levels->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
+        levels->setCenter(osg::Vec3(1.0f, 0.5f, 0.0f));
+        levels->setRadius(1.0f);
+        const osg::ref_ptr<osg::MatrixTransform> near = graph.newObject(2, 0.0, 0.0);
+        near->setMatrix(osg::Matrixd::translate(0.4, 0.3, 1.0));
+        levels->addChild(near, 0.0f, 10.0f);
+        levels->addChild(graph.newObject(1, 1.3, 0.55), 10.0f, 1e6f);
+        graph.root->addChild(levels);
+    }
+    LiveView view(graph.root);
+    view.recordEye(elsewhere);
+    view.setDirty();
+    view.update();
+    const std::vector<float> then = view.image();
+    const uint64_t conversions = view.statistics().conversions;
+    view.recordEye(fresh);
+    CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+    CHECK(differentPixels(view.lastImage(), then) > kRoundedPixels);
+    CAPTURE(view.statistics().lastConversionReason);
+    CHECK(view.statistics().conversions == conversions);
 }

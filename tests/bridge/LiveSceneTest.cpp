@@ -245,11 +245,11 @@ TEST_CASE("live scene: switches, levels of detail and nodes of other classes", "
     choice->setAllChildrenOn();
     CHECK(updateOf(view, *graph.root).patches == 1);
     inLevel->setMatrix(osg::Matrixd::translate(2.5, 0.0, 0.5));
-    CHECK(updateOf(view, *graph.root).conversions == 1);
+    CHECK(updateOf(view, *graph.root).patches == 1);
     inLevel->setMatrix(osg::Matrixd::translate(2.5, 0.0, 0.25));
     CHECK(updateOf(view, *graph.root).built == 0); // an instance by now
     levels->setRange(0, 0.0f, 1e-3f);
-    CHECK(updateOf(view, *graph.root).conversions == 1);
+    CHECK(updateOf(view, *graph.root).patches == 1);
 }
 
 TEST_CASE("live scene: two views of it restart with it, views of another do not", "[bridge]")

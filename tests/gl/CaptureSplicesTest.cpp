@@ -5,7 +5,9 @@
 #include "CullView.h"
 #include "tests/Catch.h"
 
+#include <osg/CullFace>
 #include <osg/LightSource>
+#include <osg/PolygonOffset>
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::test;
@@ -152,7 +154,7 @@ TEST_CASE("capture splices: a terrain that shows other tiles by programs redoes 
     checkEdit(terrain, view, true, [&] { show(2, 2); });
 }
 
-TEST_CASE("capture splices: what is traced, shared or without a program converts", "[gl][cull]")
+TEST_CASE("capture splices: what is traced or in two places is redone alone", "[gl][cull]")
 {
     Terrain terrain;
     terrain.window->count = 1;
@@ -165,16 +167,16 @@ TEST_CASE("capture splices: what is traced, shared or without a program converts
             new osg::Program, osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON);
         TerrainView view(terrain);
         checkAsFresh(terrain, view);
-        checkEdit(terrain, view, false, next);
+        checkEdit(terrain, view, true, next);
     }
     SECTION("one drawable in two places")
     {
         child(1)->asGroup()->setChild(0, child(0)->asGroup()->getChild(0));
         TerrainView view(terrain);
         checkAsFresh(terrain, view);
-        checkEdit(terrain, view, false, next);
-        checkEdit(terrain, view, false, next);
-        checkEdit(terrain, view, false, [&] { terrain.window->count = 1; });
+        checkEdit(terrain, view, true, next);
+        checkEdit(terrain, view, true, next);
+        checkEdit(terrain, view, true, [&] { terrain.window->count = 1; });
     }
 }
 
@@ -195,4 +197,44 @@ TEST_CASE("capture splices: lines and points that come are counted, and nothing 
         checkAsFresh(terrain, view);
     }
     CHECK(view.statistics().conversions == conversions);
+}
+
+TEST_CASE("capture splices: raised squares that are traced come, move and go alone", "[gl][cull]")
+{
+    Terrain terrain;
+    terrain.tiles->getStateSet()->removeAttribute(osg::StateAttribute::PROGRAM);
+    terrain.tiles->getStateSet()->setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f));
+    terrain.tiles->getStateSet()->setAttributeAndModes(new osg::CullFace);
+    const osg::ref_ptr<osg::StateSet> red = application::unlitColor(osg::Vec4(1, 0, 0, 1));
+    terrain.window->states->setAttributeAndModes(red->getAttribute(osg::StateAttribute::MATERIAL));
+    TerrainView view(terrain);
+    checkAsFresh(terrain, view);
+    REQUIRE(view.statistics().conversion["converted.culled"] == 3);
+    const auto tile = static_cast<osg::MatrixTransform*>(terrain.tiles->getChild(2));
+    checkEdit(terrain, view, true, [&] { terrain.window->count = 5; });
+    checkEdit(terrain, view, true, [&] { terrain.window->first = 1; });
+    checkEdit(terrain, view, true, [&] { tile->setMatrix(osg::Matrix::translate(0.0, 1.0, 0.8)); });
+    checkEdit(terrain, view, true, [&] { tile->setMatrix(osg::Matrix::translate(0.0, 1.5, 0.9)); });
+    checkEdit(terrain, view, true, [&] { terrain.window->count = 1; });
+}
+
+TEST_CASE("capture splices: content that takes turns is never converted", "[gl][cull]")
+{
+    Terrain terrain;
+    const osg::ref_ptr<osg::Group> turning = new osg::Group;
+    turning->addChild(Terrain::newTile(2));
+    const osg::ref_ptr<application::StatePusher> pusher =
+        new application::StatePusher(application::unlitColor(osg::Vec4(1, 0, 0, 1)),
+                                     application::unlitColor(osg::Vec4(0, 0, 1, 1)));
+    turning->setCullCallback(pusher.get());
+    terrain.root->addChild(turning);
+    TerrainView view(terrain);
+    view.viewer.frames(2);
+    const Statistics before = view.statistics();
+    view.viewer.frames(6);
+    CHECK(view.statistics().conversions == before.conversions);
+    CHECK(view.statistics().patches >= before.patches + 5);
+    pusher->states[1] = pusher->states[0];
+    checkAsFresh(terrain, view);
+    CHECK(view.statistics().conversions == before.conversions);
 }

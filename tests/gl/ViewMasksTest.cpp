@@ -3,6 +3,8 @@
 #include "CullNodes.h"
 #include "Squares.h"
 
+#include <osg/LOD>
+
 #include <memory>
 #include <vector>
 
@@ -168,4 +170,47 @@ TEST_CASE("view masks: a node mask that hides a seen node from a view counts at 
         view.frames(2);
         CHECK(conversions(*scene) == before);
     }
+}
+
+TEST_CASE("view masks: levels of detail are redone alone, unless OSG draws what is above", "[gl]")
+{
+    const bool masksAbove = GENERATE(false, true);
+    CAPTURE(masksAbove);
+    const osg::ref_ptr<osg::Group> group = squares(), above = new osg::Group;
+    const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    const auto newSquare = [](float x, unsigned int mask)
+    {
+        const osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, 1.0, 0.0)) *
+                                     osg::Matrixd::translate(x, 0.7, 7.0));
+        place->addChild(unlitSquare(0.5f, osg::Vec4(1, 1, 1, 1)));
+        place->setNodeMask(mask);
+        return place;
+    };
+    levels->addChild(newSquare(0.2f, 3u), 0.0f, 1e6f);
+    above->addChild(levels);
+    above->setNodeMask(masksAbove ? 1u : 3u);
+    group->addChild(above);
+    const osg::ref_ptr<RayTracedScene> scene = tracedScene(group.get());
+    scene->getSettings()->setPassesPerFrame(61);
+    TestViewer view(kSize, kSize, scene.get());
+    const auto setUp = [](TestViewer& other) { splitByMask(other, 0); };
+    setUp(view);
+    view.frames(3);
+    const uint64_t before = conversions(*scene);
+    const auto showsAsOsg = [&](const char* name, uint64_t left)
+    {
+        const osg::ref_ptr<osg::Image> traced = view.frames(3);
+        const osg::ref_ptr<osg::Image> drawn = picture(group.get(), setUp, 2);
+        // Traced pixels at the edges of near squares hide what is drawn behind them.
+        CHECK(differenceInside(name, *drawn, *traced) < 0.001);
+        CHECK(statistics(*scene).conversion["rasterized.view-mask"] == left);
+        if (!masksAbove) CHECK(conversions(*scene) == before);
+    };
+    levels->setChild(0, newSquare(-0.9f, 3u));
+    showsAsOsg("masks-level", masksAbove ? 1 : 0);
+    levels->setChild(0, newSquare(0.4f, 1u));
+    showsAsOsg("masks-level-hidden", 1);
+    levels->setChild(0, newSquare(-0.5f, 3u));
+    showsAsOsg("masks-level-seen", masksAbove ? 1 : 0);
 }

@@ -71,6 +71,13 @@ struct CullSplice
     std::map<std::string, int64_t> countsMore; ///< what the report counts more; fewer: below 0
 };
 
+/// Names an unwatched subtree, see UnwatchedSubtree.
+struct ChangedSubtree
+{
+    ConversionCause cause = ConversionCause::None; ///< cause if it cannot be redone alone
+    osg::NodePath path; ///< from the root, or from the first node that was found
+};
+
 /// Names what of a view's conditions has changed without the graph.
 struct ViewChange
 {
@@ -92,6 +99,9 @@ struct GraphChanges
     /// Geometries with other positions, normals or primitives.
     std::vector<const osg::Geometry*> deformed;
     std::vector<StateChange> stateChanges;
+    /// Unwatched subtrees with other content, place or state, each by the path to it or to a node
+    /// in it. They are collected again after all other changes.
+    std::vector<ChangedSubtree> subtrees;
     bool lights = false; ///< true: values of lights of any kind changed
     /// All clip nodes that are watched, in traversal order, if planes of one that cut what is in
     /// the scene have changed; else empty.
@@ -105,7 +115,7 @@ private:
     bool noneInGraph() const
     {
         return !convert && splices.empty() && culled.empty() && moved.empty() && deformed.empty() &&
-               stateChanges.empty() && !lights && clips.empty();
+               stateChanges.empty() && subtrees.empty() && !lights && clips.empty();
     }
 };
 

@@ -69,6 +69,7 @@ private:
     bool isFollowed(const WatchedNode& node) const;
     bool isOutOfScene(const WatchedNode& node) const;
     bool redo(uint32_t index, GraphChanges& changes);
+    bool redoUntracked(uint32_t index, ConversionCause cause, GraphChanges& changes);
     bool redoChildren(uint32_t index, GraphChanges& changes);
     bool remove(uint32_t index, GraphChanges& changes);
     bool add(uint32_t at, osg::Node& node, uint32_t parent, GraphChanges& changes);

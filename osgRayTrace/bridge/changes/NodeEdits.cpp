@@ -1,9 +1,11 @@
 // NodeEdits.cpp - which nodes came, went or have other state. Layer: bridge.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/bridge/changes/GraphWatch.h"
 
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -29,7 +31,8 @@ bool isOfTheWhole(const WatchedNode& node)
 bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
 {
     WatchedNode& node = _graph.nodes[index];
-    if (node.kind == NodeKind::Untracked) return giveUp(changes, ConversionCause::Untracked, index);
+    if (node.kind == NodeKind::Untracked && node.hint == hintHash(*node.node))
+        return redoUntracked(index, ConversionCause::Untracked, changes);
     if (node.hint != hintHash(*node.node)) return giveUp(changes, ConversionCause::Hint, index);
     if (_graph.isRepeated(*node.node)) return giveUp(changes, ConversionCause::SharedNode, index);
     const osg::StateSet* stateSet = node.node->getStateSet();
@@ -47,6 +50,22 @@ bool GraphWatch::redo(uint32_t index, GraphChanges& changes)
     WatchedNode& now = _graph.nodes[index];
     now.hash = nodeHash(now.kind, *now.node);
     return known || giveUp(changes, ConversionCause::ReferenceFrame, index);
+}
+
+/// Has the subtree of an untracked node collected again, and watches the node as it is now. Returns
+/// false if there is more below it than is watched.
+bool GraphWatch::redoUntracked(uint32_t index, ConversionCause cause, GraphChanges& changes)
+{
+    WatchedNode& node = _graph.nodes[index];
+    UntrackedNode& untracked = _graph.untrackedNodes[node.item];
+    PathBudget ofStructure(untracked.budget), budget(untracked.budget);
+    untracked.structure = structureHash(*node.node, _plain, ofStructure);
+    KeptObjects kept;
+    node.hash = graphHash(*node.node, _plain, untracked.sceneFromLocal, &kept, nullptr, &budget);
+    untracked.kept = std::move(kept);
+    if (budget.left() == 0) return giveUp(changes, cause, index);
+    changes.subtrees.push_back({cause, _graph.pathTo(index)});
+    return true;
 }
 
 /// Compares the children of a node with its former ones, and takes out and puts in those that

@@ -155,14 +155,13 @@ void GraphWatch::findChanged(GraphChanges& changes)
         bool stateChanged = i < stateChangedEnd;
         const bool decides = i < stateDecidesEnd;
         if (stateChanged && node.kind == NodeKind::Untracked && (decides || !isOutOfScene(node)))
-            mustConvert(changes, ConversionCause::UntrackedState, i);
+            changes.subtrees.push_back({ConversionCause::UntrackedState, _graph.pathTo(i)});
         const bool moved = node.place != kNowhere && _graph.places[node.place].moved;
         if (moved && node.kind == NodeKind::Untracked)
         {
             _graph.untrackedNodes[node.item].sceneFromLocal = matrixOf(node.place);
-            if (!movesWithOthers(node))
-                mustRecord(changes, ConversionCause::MovedSpecial,
-                           _graph.places[_graph.outermostMoved(node.place)].node);
+            if (!movesWithOthers(node) && !redoUntracked(i, ConversionCause::MovedSpecial, changes))
+                return;
         }
         if (node.kind != NodeKind::Geometry) continue;
         WatchedGeometry& watched = _graph.geometries[node.item];

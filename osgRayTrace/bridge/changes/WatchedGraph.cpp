@@ -388,14 +388,6 @@ osg::Matrixd WatchedGraph::sceneFromPlanes(uint32_t node, const ViewingCondition
                : sceneFromLocal(nodes[node].place);
 }
 
-uint32_t WatchedGraph::outermostMoved(uint32_t place) const
-{
-    uint32_t outermost = place;
-    for (; place != kNowhere; place = outerPlace(place))
-        if (places[place].moved) outermost = place;
-    return outermost;
-}
-
 osg::NodePath WatchedGraph::pathTo(uint32_t node) const
 {
     osg::NodePath path;

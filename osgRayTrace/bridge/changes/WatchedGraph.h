@@ -191,9 +191,6 @@ struct WatchedGraph
     /// Returns the matrix of the planes of a clip node, which is at this index.
     osg::Matrixd sceneFromPlanes(uint32_t node, const ViewingConditions& conditions) const;
 
-    /// Returns the outermost of the places around a place, and that place, that have moved.
-    uint32_t outermostMoved(uint32_t place) const;
-
     osg::NodePath pathTo(uint32_t node) const;
 
     /// Forgets the list of nodes that came before, which only append() needs.

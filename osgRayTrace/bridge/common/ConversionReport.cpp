@@ -49,6 +49,7 @@ void ConversionReport::count(const std::string& what, uint64_t number)
 {
     _counts[what] += number;
     _remarks += !begins(what, "converted.");
+    if (_listener) _listener(what, number);
     if (!_place || number == 0 || begins(what, kMissing)) return; // missing files are named instead
     const auto recorded = _paths.find(what);
     if (recorded == _paths.end() || recorded->second.size() < kPathsKept)
@@ -59,6 +60,7 @@ void ConversionReport::countFor(const std::string& what, const std::string& caus
 {
     ++_counts[what];
     ++_remarks;
+    if (_listener) _listener(what, 1);
     const std::string beginning = _place ? cause + ", for " : cause;
     const std::vector<std::string>& paths = _paths[what];
     const bool isNamed =

@@ -57,6 +57,10 @@ public:
     /// function refers to must live until the next call.
     void setPlace(Place place) { _place = std::move(place); }
 
+    /// Tells the function of each count from now on. It must live until the next call; empty: none.
+    using Listener = std::function<void(const std::string& what, uint64_t number)>;
+    void setListener(Listener listener) { _listener = std::move(listener); }
+
     void count(const std::string& what, uint64_t number = 1);
     void add(const ConversionCounts& counts);
     void add(const ConversionReport& other); ///< adds the paths as well
@@ -93,6 +97,7 @@ private:
     uint64_t _remarks = 0;
     std::set<std::string> _named;
     Place _place;
+    Listener _listener;
 };
 
 /// Warns about the omissions of a geometry, if it is the first one of a reason.

@@ -7,6 +7,7 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/appearance/textures/VolumeImages.h"
 #include "osgRayTrace/bridge/convert/ClippedUse.h"
+#include "osgRayTrace/bridge/convert/ConvertedSubtree.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
 #include "osgRayTrace/bridge/geometry/ClosedMesh.h"
@@ -70,6 +71,7 @@ struct ConvertedGraph
     uint64_t unwatchedPlanes = 0;          ///< CollectedGraph::unwatchedPlanes
     std::vector<ClippedUse> clipped;
     CullWatch cullWatch;
+    ConvertedSubtrees subtrees;
     /// CollectedGraph::inScene; nothing: no conversion has come to its end.
     std::optional<std::unordered_set<const osg::Node*>> inScene;
     std::vector<uint32_t> instanceGaps, meshGaps; ///< indices that removed parts left

@@ -9,42 +9,9 @@
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-/// Returns whether a use may enclose all of a scene, for which it would have no proxy (see
-/// Enclosures.h): no mesh of the scene is known to have a corner outside its box. A mesh is asked
-/// for its first corner alone.
-bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal)
-{
-    Vec3d low(std::numeric_limits<double>::infinity()), high = -low;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-        const osg::Vec3d p = osg::Vec3d(corner & 1 ? bounds.high.x : bounds.low.x,
-                                        corner & 2 ? bounds.high.y : bounds.low.y,
-                                        corner & 4 ? bounds.high.z : bounds.low.z) *
-                             engineFromLocal;
-        low = glm::min(low, Vec3d(p.x(), p.y(), p.z()));
-        high = glm::max(high, Vec3d(p.x(), p.y(), p.z()));
-    }
-    const Vec3d margin = kEnclosureMargin * (high - low);
-    const auto isOutside = [&](const Instance& instance)
-    {
-        const Mesh& mesh = *scene.meshes[instance.mesh];
-        if (mesh.positions.empty()) return false;
-        const Vec3d p(transformPoint(instance.engineFromLocal, mesh.positions[0]));
-        return glm::any(glm::lessThan(p, low - margin)) ||
-               glm::any(glm::greaterThan(p, high + margin));
-    };
-    return std::none_of(scene.instances.begin(), scene.instances.end(), isOutside);
-}
-
-} // namespace
 
 /// Takes out and puts in proxies, and nothing else. What OSG draws needs no patch: it culls the
 /// whole subtree in each frame.
@@ -55,6 +22,12 @@ bool ScenePatcher::splice(const CullSplice& splice)
         if (!removeProxy(gone)) return refuse(ConversionCause::CullTraversal, splice.path);
     if (!splice.added.empty() && !addProxies(splice)) return false;
     _convertedGraph.index.addUntraced({}, splice.left);
+    const uint32_t in = _convertedGraph.subtrees.find(splice.path);
+    if (in == kNoSubtree) return true;
+    ConvertedSubtree& subtree = _convertedGraph.subtrees.all[in];
+    for (const auto& [reason, more] : splice.countsMore)
+        subtree.counts[reason] += static_cast<uint64_t>(more);
+    subtree.left.insert(subtree.left.end(), splice.left.begin(), splice.left.end());
     return true;
 }
 
@@ -75,6 +48,14 @@ bool ScenePatcher::removeProxy(const ChangedUse& gone)
         removeInstance(index);
         removeMesh(mesh);
         --_proxies;
+    }
+    if (const uint32_t in = traced.uses[0].subtree; in != kNoSubtree)
+    {
+        std::vector<ConvertedSubtree::Place>& places = _convertedGraph.subtrees.all[in].places;
+        places.erase(std::remove_if(places.begin(), places.end(),
+                                    [&gone](const ConvertedSubtree::Place& place)
+                                    { return place.geometry == gone.geometry; }),
+                     places.end());
     }
     _removed.push_back(traced.geometry);
     _convertedGraph.index.geometries.erase(found);
@@ -97,14 +78,18 @@ bool ScenePatcher::addProxies(const CullSplice& splice)
     graph.texGens = _convertedGraph.texGens;
     if (!findBounds(graph)) return refuseAll(ConversionCause::LargeSubgraph);
     if (!lengthsOf(graph).areOrdinary()) return refuseAll(ConversionCause::Lengths);
+    const uint32_t in = _convertedGraph.subtrees.find(splice.path);
     for (std::size_t i = 0; i < leaves.size(); ++i)
     {
         const CollectedGeometry& geometry = graph.geometries[i];
         const ConversionCause cause = geometry.geometry == leaves[i].drawable
-                                          ? addProxy(graph, geometry)
+                                          ? addProxy(graph, geometry, in)
                                           : ConversionCause::CullTraversal;
         if (cause != ConversionCause::None) return refuseAll(cause);
     }
+    if (in != kNoSubtree)
+        for (const ConvertedSubtree::Place& place : placesOf(graph))
+            _convertedGraph.subtrees.all[in].places.push_back(place);
     if (_convertedGraph.inScene)
         _convertedGraph.inScene->insert(graph.inScene.begin(), graph.inScene.end());
     return true;
@@ -112,7 +97,7 @@ bool ScenePatcher::addProxies(const CullSplice& splice)
 
 /// Returns None if the proxy was added, otherwise the cause against it.
 ConversionCause ScenePatcher::addProxy(const CollectedGraph& graph,
-                                       const CollectedGeometry& geometry)
+                                       const CollectedGeometry& geometry, uint32_t subtree)
 {
     if (geometry.uses.size() != 1 || !geometry.uses[0].proxy) return ConversionCause::CullTraversal;
     const GeometryUse& use = geometry.uses[0];
@@ -131,6 +116,7 @@ ConversionCause ScenePatcher::addProxy(const CollectedGraph& graph,
     rules.setsColor = _convertedGraph.setsColor;
     rules.comparable = true;
     rules.patches = true;
+    rules.subtree = subtree;
     rules.now = _now;
     ConversionReport report;
     SceneBuilder(_input, graph, rules, _caches, _convertedGraph, *_scene, report).add(geometry);

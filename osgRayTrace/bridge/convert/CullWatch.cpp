@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -83,9 +84,9 @@ bool sameDrawables(const std::vector<CulledLeaf>& before, const std::vector<Cull
 }
 
 /// Returns the part of the scene that each leaf has become, by its number.
-std::unordered_map<uint32_t, ChangedUse> usesOf(const CollectedGraph& graph)
+CullWatch::LeafUses usesOf(const CollectedGraph& graph)
 {
-    std::unordered_map<uint32_t, ChangedUse> uses;
+    CullWatch::LeafUses uses;
     for (const CollectedGeometry& geometry : graph.geometries)
         for (std::size_t i = 0; i < geometry.uses.size(); ++i)
             if (geometry.uses[i].culled != kNoCulledLeaf)
@@ -155,6 +156,29 @@ CullWatch::WatchedLeaf CullWatch::valuesOf(const CulledLeaf& leaf) const
     return values;
 }
 
+CullWatch::Watched CullWatch::watchedOf(CullOutcome& outcome, const LeafUses& uses) const
+{
+    Watched watched;
+    watched.drawn = outcome.isDrawn();
+    watched.left = leftOf(outcome.leaves);
+    for (CulledLeaf& leaf : std::exchange(outcome.leaves, {}))
+    {
+        if (!leaf.isInScene()) continue;
+        WatchedLeaf& values = watched.values.emplace_back(valuesOf(leaf));
+        const auto use = uses.find(leaf.number);
+        if (use != uses.end()) values.use = use->second;
+        watched.leaves.push_back(std::move(leaf));
+    }
+    watched.captured = outcome.record.size();
+    watched.signature = outcome.record.signature();
+    watched.outcome = std::move(outcome);
+    if (watched.outcome.kind == CullOutcome::Captured)
+        watched.content = contentOf(watched.outcome);
+    else
+        watched.outcome.record = CullRecord();
+    return watched;
+}
+
 void CullWatch::record(CollectedGraph& graph, std::shared_ptr<const ShaderReads> reads)
 {
     _plain.reads = std::move(reads);
@@ -163,30 +187,37 @@ void CullWatch::record(CollectedGraph& graph, std::shared_ptr<const ShaderReads>
     _unknown = graph.cullUnknown;
     _next = _credit = 0;
     _plainAbove = nullptr;
-    const std::unordered_map<uint32_t, ChangedUse> uses = usesOf(graph);
+    const LeafUses uses = usesOf(graph);
     for (CullOutcome& outcome : graph.cullOutcomes)
     {
-        Watched& watched = _watched.emplace_back();
-        watched.drawn = outcome.isDrawn();
-        watched.left = leftOf(outcome.leaves);
         if (outcome.kind == CullOutcome::Captured) _captured.insert(outcome.path.back());
-        for (CulledLeaf& leaf : std::exchange(outcome.leaves, {}))
-        {
-            if (!leaf.isInScene()) continue;
-            WatchedLeaf& values = watched.values.emplace_back(valuesOf(leaf));
-            const auto use = uses.find(leaf.number);
-            if (use != uses.end()) values.use = use->second;
-            watched.leaves.push_back(std::move(leaf));
-        }
-        watched.captured = outcome.record.size();
-        watched.signature = outcome.record.signature();
-        watched.outcome = std::move(outcome);
-        if (watched.outcome.kind == CullOutcome::Captured)
-            watched.content = contentOf(watched.outcome);
-        else
-            watched.outcome.record = CullRecord();
+        _watched.push_back(watchedOf(outcome, uses));
     }
     graph.cullOutcomes.clear();
+}
+
+void CullWatch::replace(const osg::NodePath& path, CollectedGraph& graph, const LeafUses& uses)
+{
+    const auto isIn = [&path](const Watched& watched)
+    {
+        const osg::NodePath& at = watched.outcome.path;
+        return at.size() >= path.size() && std::equal(path.begin(), path.end(), at.begin());
+    };
+    auto at = std::find_if(_watched.begin(), _watched.end(), isIn);
+    const auto index = at - _watched.begin();
+    _watched.erase(std::remove_if(at, _watched.end(), isIn), _watched.end());
+    std::vector<Watched> fresh;
+    for (CullOutcome& outcome : graph.cullOutcomes)
+        fresh.push_back(watchedOf(outcome, uses));
+    graph.cullOutcomes.clear();
+    _watched.insert(_watched.begin() + index, std::make_move_iterator(fresh.begin()),
+                    std::make_move_iterator(fresh.end()));
+    _captured.clear();
+    for (const Watched& watched : _watched)
+        if (watched.outcome.kind == CullOutcome::Captured)
+            _captured.insert(watched.outcome.path.back());
+    _next = 0;
+    _plainAbove = nullptr;
 }
 
 /// Finds what differs in a leaf. Returns false if the graph must be converted.
@@ -353,7 +384,16 @@ bool CullWatch::lookAt(Watched& watched, CullRepetition& repetition, const Conve
                              caches.rules, unused);
     std::optional<CullOutcome> now = collector.cullOutcomeAt(then.path, record, then.answers);
     unused.setPlace({});
-    if (!now || !compare(watched, *now, input.eye.length(), changes)) return false;
+    unused.setListener({});
+    if (!now) return false;
+    const std::size_t moved = changes.moved.size(), deformed = changes.deformed.size();
+    if (!compare(watched, *now, input.eye.length(), changes))
+    {
+        changes.moved.resize(moved);
+        changes.deformed.resize(deformed);
+        changes.others.push_back(then.path);
+        return true;
+    }
     watched.signature = record.signature();
     watched.captured = record.size();
     watched.content = content;

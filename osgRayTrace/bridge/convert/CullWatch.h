@@ -17,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct CullChanges
     std::vector<MovedUse> moved;
     std::vector<const osg::Geometry*> deformed; ///< other positions, normals or primitives
     std::vector<CullSplice> splices;
+    std::vector<osg::NodePath> others; ///< nodes whose cull traversal shows more that is different
 };
 
 /// Holds the decisions on the subtrees that may draw in cull alone, and repeats them.
@@ -49,6 +51,13 @@ public:
     /// Takes the outcomes of the graph, after all that is not traced has been dropped from its
     /// geometries. reads is as in ViewingConditions.
     void record(CollectedGraph& graph, std::shared_ptr<const ShaderReads> reads);
+
+    /// Names the part of the scene that each leaf has become, by its number.
+    using LeafUses = std::unordered_map<uint32_t, ChangedUse>;
+
+    /// Takes the outcomes at and below the last node of a path from a graph that was collected
+    /// there, in place of those that it has.
+    void replace(const osg::NodePath& path, CollectedGraph& graph, const LeafUses& uses);
 
     bool isEmpty() const { return _watched.empty() && !_unknown; }
 
@@ -85,6 +94,7 @@ private:
         std::map<std::string, int64_t> left; ///< numbers of leaves that OSG draws, by their reason
     };
 
+    Watched watchedOf(CullOutcome& outcome, const LeafUses& uses) const;
     bool lookAt(Watched& watched, CullRepetition& repetition, const ConversionInput& input,
                 const Caches& caches, CullChanges& changes);
     bool isInPlain(const CullOutcome& outcome) const;

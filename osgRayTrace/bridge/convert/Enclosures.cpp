@@ -176,7 +176,11 @@ std::vector<Vec3d> placesOf(const std::vector<PlacedUse>& uses, std::size_t begi
 void drop(const std::vector<PlacedUse>& uses, std::size_t count, CollectedGraph& graph)
 {
     for (std::size_t i = 0; i < count; ++i)
-        graph.geometries[uses[i].geometry].uses[uses[i].use].state = kInvalid;
+    {
+        CollectedGeometry& geometry = graph.geometries[uses[i].geometry];
+        geometry.uses[uses[i].use].state = kInvalid;
+        graph.enclosures.push_back(geometry.geometry);
+    }
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.uses.erase(std::remove_if(geometry.uses.begin(), geometry.uses.end(),
                                            [](const GeometryUse& use)
@@ -215,6 +219,30 @@ void dropEnclosures(CollectedGraph& graph, const ConversionInput& input)
         ++dropped;
     }
     if (dropped > 0) drop(uses, dropped, graph);
+}
+
+bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal)
+{
+    Vec3d low(std::numeric_limits<double>::infinity()), high = -low;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const osg::Vec3d p = osg::Vec3d(corner & 1 ? bounds.high.x : bounds.low.x,
+                                        corner & 2 ? bounds.high.y : bounds.low.y,
+                                        corner & 4 ? bounds.high.z : bounds.low.z) *
+                             engineFromLocal;
+        low = glm::min(low, Vec3d(p.x(), p.y(), p.z()));
+        high = glm::max(high, Vec3d(p.x(), p.y(), p.z()));
+    }
+    const Vec3d margin = kEnclosureMargin * (high - low);
+    const auto isOutside = [&](const Instance& instance)
+    {
+        const Mesh& mesh = *scene.meshes[instance.mesh];
+        if (mesh.positions.empty()) return false;
+        const Vec3d p(transformPoint(instance.engineFromLocal, mesh.positions[0]));
+        return glm::any(glm::lessThan(p, low - margin)) ||
+               glm::any(glm::greaterThan(p, high + margin));
+    };
+    return std::none_of(scene.instances.begin(), scene.instances.end(), isOutside);
 }
 
 } // namespace osgRayTrace::engine

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
+#include "osgRayTrace/scene/Scene.h"
 
 namespace osgRayTrace::engine
 {
@@ -15,5 +16,11 @@ constexpr double kEnclosureMargin = 0.1;
 /// outside, as the dome of a sky does. The bounds of the geometries must be set, and the unit not
 /// yet applied.
 void dropEnclosures(CollectedGraph& graph, const ConversionInput& input);
+
+/// Returns whether a use may enclose all of a scene, for which it would have no proxy (see
+/// Enclosures.h): no mesh of the scene is known to have a corner outside its box. A mesh is asked
+/// for its first corner alone.
+bool mayEnclose(const Scene& scene, const VertexBounds& bounds,
+                const osg::Matrixd& engineFromLocal);
 
 } // namespace osgRayTrace::engine

@@ -9,7 +9,18 @@ namespace osgRayTrace::engine
 /// Records a use of which nothing is traced.
 void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryUse& use)
 {
-    recordUse(geometry, {kInvalid, use.proxy ? kInvalid : effects(use.state, ConversionCounts())});
+    recordUse(geometry, use,
+              {kInvalid, use.proxy ? kInvalid : effects(use.state, ConversionCounts())});
+}
+
+Material materialOf(MaterialConverter& materials, const GeometryUse& use,
+                    const CollectedGraph& graph, const SurfaceInputs& inputs)
+{
+    const GraphState& state = graph.states[use.state];
+    Material material = materials.material(use.proxy ? proxyState(state) : state, inputs,
+                                           {use.engineFromLocal, &graph.texGens});
+    if (use.proxy) hideFromCamera(material);
+    return material;
 }
 
 /// Makes the instance of a proxy. The state of a proxy changes nothing of what camera rays see,
@@ -17,14 +28,21 @@ void SceneBuilder::addNothing(const CollectedGeometry& geometry, const GeometryU
 TracedUse SceneBuilder::newProxy(const CollectedGeometry& geometry, const GeometryUse& use,
                                  Instance instance)
 {
-    Material material = _materials.material(proxyState(_graph.states[use.state]),
-                                            surfaceInputs(*geometry.geometry, _input.pointRadius),
-                                            {use.engineFromLocal, &_graph.texGens});
-    hideFromCamera(material);
-    instance.material = _convertedGraph.materials.add(material);
+    instance.material = _convertedGraph.materials.add(
+        materialOf(_materials, use, _graph, surfaceInputs(*geometry.geometry, _input.pointRadius)));
     instance.changed = _rules.now;
     _report.count("traced.proxy");
-    return {appendInstance(instance), kInvalid};
+    return {appendInstance(instance), kInvalid, proxyEffects(use.state)};
+}
+
+/// Returns the index of the effects of a proxy with this state.
+uint32_t SceneBuilder::proxyEffects(uint32_t state)
+{
+    std::optional<StateEffects>& known = _effects[state];
+    if (!known) known = stateEffectsOf(_graph.states[state], _caches.textures);
+    StateEffects wanted = *known;
+    wanted.proxied = true;
+    return _convertedGraph.index.effects(wanted);
 }
 
 /// Returns where the omissions of a geometry are counted: nowhere if OSG draws all of its uses.

@@ -170,7 +170,8 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
              last->transform !=
                  requestFor(collected, collected.uses.front().engineFromLocal).transform)
         cache.recordMobility(geometry, Mobility::Dynamic);
-    else if (once && (_caches.noStaticBvh || (_rules.comparable && !last && !_newJoinStatic)))
+    else if (once && (_rules.patches || _caches.noStaticBvh ||
+                      (_rules.comparable && !last && !_newJoinStatic)))
         cache.recordMobility(geometry, Mobility::Dynamic);
     return !once || cache.mobility(geometry) != Mobility::Static;
 }
@@ -221,7 +222,14 @@ void SceneBuilder::recordClipped(const CollectedGeometry& geometry, const Geomet
 /// made in double; a geometry that is used more often gets one mesh and several instances.
 void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
 {
-    const uint64_t remarks = _report.remarks();
+    std::unique_ptr<ConversionCounts> remarks;
+    _report.setListener(
+        [&remarks](const std::string& what, uint64_t number)
+        {
+            if (what.rfind("converted.", 0) == 0) return;
+            if (!remarks) remarks = std::make_unique<ConversionCounts>();
+            (*remarks)[what] += number;
+        });
     warnIfCoarse(geometry);
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     // The index holds only one of a geometry that was collected for two primitive restarts.
@@ -253,7 +261,9 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
                                              geometry.path, reportOf(geometry)));
         recordClipped(geometry, use, request, kOwnVariant, clipping, true);
     }
-    traced.plain = _report.remarks() == remarks;
+    _report.setListener({});
+    traced.plain = !remarks;
+    traced.remarks = std::move(remarks);
 }
 
 void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -341,7 +351,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
     Instance instance;
     instance.mesh = _scene.instances[other].mesh;
     if (!placeInstance(instance, localFromMesh * use.engineFromLocal)) return false;
-    const TracedUse result = newInstance(geometry, use, instance);
+    TracedUse result = newInstance(geometry, use, instance);
+    result.subtree = subtreeOf(use);
     _convertedGraph.index.addUse(traced, result, before);
     _report.count("converted.instance");
     return true;
@@ -350,14 +361,16 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 void SceneBuilder::addInstance(const CollectedGeometry& geometry, const GeometryUse& use,
                                Instance instance)
 {
-    recordUse(geometry, newInstance(geometry, use, instance));
+    recordUse(geometry, use, newInstance(geometry, use, instance));
 }
 
-void SceneBuilder::recordUse(const CollectedGeometry& geometry, const TracedUse& use)
+void SceneBuilder::recordUse(const CollectedGeometry& geometry, const GeometryUse& use,
+                             TracedUse traced)
 {
-    TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
-    _convertedGraph.index.addUse(traced, use, traced.uses.size());
-    _instances.push_back(use.instance);
+    traced.subtree = subtreeOf(use);
+    TracedGeometry& all = _convertedGraph.index.at(*geometry.geometry);
+    _convertedGraph.index.addUse(all, traced, all.uses.size());
+    _instances.push_back(traced.instance);
 }
 
 TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const GeometryUse& use,
@@ -367,8 +380,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
     const GraphState& state = _graph.states[use.state];
     _materialReport = ConversionReport();
     instance.material = _convertedGraph.materials.add(
-        _materials.material(state, surfaceInputs(*geometry.geometry, _input.pointRadius),
-                            {use.engineFromLocal, &_graph.texGens}));
+        materialOf(_materials, use, _graph, surfaceInputs(*geometry.geometry, _input.pointRadius)));
     _report.addHere(_materialReport);
     warnIfOpen(geometry, instance);
     setAmbient(state);

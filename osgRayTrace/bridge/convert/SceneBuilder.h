@@ -15,11 +15,16 @@ struct BuildRules
 {
     double unit = 1.0;
     bool linear = false;
-    bool setsColor = false;  ///< see MaterialRules
-    bool comparable = false; ///< comparable with the last snapshot: differences are changes
-    bool patches = false;    ///< adds to a scene that is there: all instances are placed
+    bool setsColor = false;        ///< see MaterialRules
+    bool comparable = false;       ///< comparable with the last snapshot: differences are changes
+    bool patches = false;          ///< adds to a scene that is there: all instances are placed
+    uint32_t subtree = kNoSubtree; ///< for patches: the unwatched subtree of all uses, if any
     Stamp now = 0;
 };
+
+/// Returns the material of a use of a collected graph. Camera rays pass that of a proxy.
+Material materialOf(MaterialConverter& materials, const GeometryUse& use,
+                    const CollectedGraph& graph, const SurfaceInputs& inputs);
 
 /// Adds what was collected to a Scene: the whole graph to a new Scene, or later additions to a copy
 /// of the last Scene.
@@ -64,10 +69,15 @@ private:
     TracedUse newProxy(const CollectedGeometry& geometry, const GeometryUse& use,
                        Instance instance);
     ConversionReport& reportOf(const CollectedGeometry& geometry);
-    void recordUse(const CollectedGeometry& geometry, const TracedUse& use);
+    void recordUse(const CollectedGeometry& geometry, const GeometryUse& use, TracedUse traced);
+    uint32_t subtreeOf(const GeometryUse& use) const
+    {
+        return _rules.patches ? _rules.subtree : use.subtree;
+    }
     void addAreaLight(const CollectedAreaLight& source, ConversionCaches::Quad& quad);
     void addNothing(const CollectedGeometry& geometry, const GeometryUse& use);
     uint32_t effects(uint32_t state, const ConversionCounts& counts);
+    uint32_t proxyEffects(uint32_t state);
     void setAmbient(const GraphState& state);
     uint32_t addMesh(const std::shared_ptr<const Mesh>& mesh);
     uint32_t appendInstance(const Instance& instance);

@@ -50,12 +50,12 @@ void endCollection(ConversionCaches& caches)
 }
 
 /// Returns the parts that OSG has to draw; null: the parts show nothing.
-std::shared_ptr<const RasterizedParts> shownParts(RasterizedParts parts)
+std::shared_ptr<const RasterizedParts>
+shownParts(const std::shared_ptr<const RasterizedParts>& parts)
 {
     const auto shows = [](const RasterizedPart& part)
     { return part.kind == RasterizedPart::Draw || part.kind == RasterizedPart::Clear; };
-    if (std::none_of(parts.begin(), parts.end(), shows)) return nullptr;
-    return std::make_shared<const RasterizedParts>(std::move(parts));
+    return std::any_of(parts->begin(), parts->end(), shows) ? parts : nullptr;
 }
 
 double secondsSince(std::chrono::steady_clock::time_point begin)
@@ -68,6 +68,15 @@ bool isComparable(const Scene& last, const Vec3d& origin, const BuildRules& rule
 {
     return !last.instances.empty() && last.origin == origin && last.unit == rules.unit &&
            last.displayReferred == !rules.linear;
+}
+
+/// Sets whence the graph is seen now: levels of detail and billboards depend on that.
+void takeView(const ViewingConditions& conditions, ConversionInput& input)
+{
+    input.eye = conditions.eye;
+    input.view = conditions.view;
+    input.pass = conditions.pass;
+    input.inheritedState = conditions.inheritedState;
 }
 
 void addToCount(ConversionCounts& counts, const std::string& what, int64_t more)
@@ -124,10 +133,7 @@ CullChanges SceneConverter::lookInCull(const ViewingConditions& conditions)
     CullWatch& watch = state.convertedGraph.cullWatch;
     if (watch.isEmpty()) return {};
     ConversionInput input = state.input;
-    input.eye = conditions.eye;
-    input.view = conditions.view;
-    input.pass = conditions.pass;
-    input.inheritedState = conditions.inheritedState;
+    takeView(conditions, input);
     ConversionCaches& caches = state.caches;
     return watch.look(input, {caches.vertices, caches.triangles, caches.textures, caches.rules});
 }
@@ -155,6 +161,8 @@ void SceneConverter::addCullChanges(const CullChanges& cull, GraphChanges& chang
     changes.moved.insert(changes.moved.end(), cull.moved.begin(), cull.moved.end());
     changes.deformed.insert(changes.deformed.end(), cull.deformed.begin(), cull.deformed.end());
     changes.culled.insert(changes.culled.end(), cull.splices.begin(), cull.splices.end());
+    for (const osg::NodePath& path : cull.others)
+        changes.subtrees.push_back({ConversionCause::CullTraversal, path});
     if (cull.holds || changes.convert) return;
     changes.convert = true;
     changes.reason.cause = ConversionCause::CullTraversal;
@@ -213,6 +221,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.clearColor = graph.clearColor;
     state.convertedGraph.inScene = std::move(graph.inScene);
     state.convertedGraph.texGens = graph.texGens;
+    state.convertedGraph.subtrees.record(graph);
     state.convertedGraph.clipPlanes = graph.clipPlanes;
     state.convertedGraph.cuttingPlanes = graph.cuttingPlanes;
     state.convertedGraph.unwatchedPlanes = graph.unwatchedPlanes;
@@ -226,13 +235,15 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     result.counts = report.counts();
     result.paths = report.paths();
     warnOnceAReason(report, input.rasterizesRest);
-    result.rasterized = shownParts(std::move(graph.rasterized));
+    state.convertedGraph.subtrees.parts =
+        std::make_shared<const RasterizedParts>(std::move(graph.rasterized));
+    result.rasterized = shownParts(state.convertedGraph.subtrees.parts);
     result.seconds = secondsSince(begin);
     state.lastResult = result;
     return result;
 }
 
-PatchResult SceneConverter::patch(const GraphChanges& changes)
+PatchResult SceneConverter::patch(const GraphChanges& changes, const ViewingConditions& conditions)
 {
     const ThreadSeam::Entry inside(_implementation->seam);
     const auto begin = std::chrono::steady_clock::now();
@@ -245,6 +256,7 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     const bool patchable = state.ordinary || changes.isOfTheView();
     if (!state.last || !patchable) return refused(ConversionCause::NotPatchable);
     if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
+    takeView(conditions, state.input);
     if (changes.view)
     {
         state.input.clearColor = changes.view->clearColor;
@@ -266,6 +278,10 @@ PatchResult SceneConverter::patch(const GraphChanges& changes)
     for (const CullSplice& splice : changes.culled)
         for (const auto& [reason, more] : splice.countsMore)
             addToCount(result.counts, reason, more);
+    for (const auto& [reason, more] : patcher.countsMore())
+        addToCount(result.counts, reason, more);
+    if (patcher.otherParts()) result.rasterized = shownParts(state.convertedGraph.subtrees.parts);
+    result.paged |= patcher.paged();
     result.counts["converted.light"] =
         state.last->lights.size() - viewerLights(state.convertedGraph.lightCounts);
     result.emptyInstances = state.convertedGraph.instanceGaps.size();

@@ -38,10 +38,10 @@ public:
     ConversionResult convert(const ConversionInput& input);
 
     /// Returns the last scene with these changes alone applied, or the last scene itself if they
-    /// change nothing. The result has no conversion, but a reason, if convert() has to be called.
-    /// The graph must have no other changes since the last call of convert() or patch() that did
-    /// not throw.
-    PatchResult patch(const GraphChanges& changes);
+    /// change nothing. conditions: those under which the changes were found. The result has no
+    /// conversion, but a reason, if convert() has to be called. The graph must have no other
+    /// changes since the last call of convert() or patch() that did not throw.
+    PatchResult patch(const GraphChanges& changes, const ViewingConditions& conditions);
 
     /// Returns what the nodes that draw in cull alone show in this view otherwise than it was
     /// converted. Such nodes run, and may change the graph. Only bad_alloc is thrown. The changes

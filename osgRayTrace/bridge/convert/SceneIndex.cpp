@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <tuple>
+#include <unordered_set>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -21,8 +23,8 @@ bool StateEffects::operator==(const StateEffects& other) const
 {
     const auto values = [](const StateEffects& t)
     {
-        return std::tie(t.rasterized, t.restart, t.depthBias, t.physical, t.setsColor, t.clipPlanes,
-                        t.hasAmbient, t.ambient, t.uvSets, t.counts);
+        return std::tie(t.rasterized, t.proxied, t.restart, t.depthBias, t.physical, t.setsColor,
+                        t.clipPlanes, t.hasAmbient, t.ambient, t.uvSets, t.counts);
     };
     return values(*this) == values(other);
 }
@@ -53,6 +55,14 @@ uint32_t SceneIndex::effects(const StateEffects& effects)
     const auto index = static_cast<uint32_t>(found - stateEffects.begin());
     if (found == stateEffects.end()) stateEffects.push_back(effects);
     return index;
+}
+
+uint32_t SceneIndex::leftEffects(const LeftState& left)
+{
+    StateEffects known;
+    known.rasterized = left.reason;
+    known.proxied = left.proxied;
+    return effects(known);
 }
 
 void SceneIndex::addUse(TracedGeometry& traced, const TracedUse& use, std::size_t before)
@@ -102,18 +112,24 @@ bool SceneIndex::isLeft(const osg::Geometry& geometry) const
 void SceneIndex::addUntraced(const RasterizedParts& parts,
                              const std::vector<const osg::Geometry*>& more)
 {
-    std::vector<const osg::Geometry*> untraced;
+    std::vector<std::pair<const osg::Geometry*, uint32_t>> untraced;
+    std::unordered_set<const osg::Geometry*> unordered; // more is in no order with parts
     for (const osg::Geometry* geometry : more)
-        if (!geometries.count(geometry)) untraced.push_back(geometry);
+    {
+        if (geometries.count(geometry)) continue;
+        untraced.emplace_back(geometry, kInvalid);
+        unordered.insert(geometry);
+    }
     for (const RasterizedPart& part : parts)
     {
         const osg::Geometry* geometry =
             part.path.empty() ? nullptr : part.path.back()->asGeometry();
-        if (geometry && part.kind == RasterizedPart::Draw && !geometries.count(geometry))
-            untraced.push_back(geometry);
+        if (!geometry || part.kind != RasterizedPart::Draw || geometries.count(geometry)) continue;
+        const bool known = part.left && !unordered.count(geometry);
+        untraced.emplace_back(geometry, known ? leftEffects(*part.left) : kInvalid);
     }
-    for (const osg::Geometry* geometry : untraced)
-        at(*geometry).uses.emplace_back();
+    for (const auto& [geometry, left] : untraced)
+        at(*geometry).uses.push_back({kInvalid, kInvalid, left});
 }
 
 } // namespace osgRayTrace::engine

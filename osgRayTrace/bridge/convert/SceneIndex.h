@@ -5,11 +5,12 @@
 #include "osgRayTrace/bridge/appearance/textures/TextureConverter.h"
 #include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
-#include "osgRayTrace/bridge/graph/RasterizedParts.h"
+#include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <osg/Geometry>
 
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -21,6 +22,7 @@ namespace osgRayTrace::engine
 struct StateEffects
 {
     const char* rasterized = nullptr; ///< see rasterizedState
+    bool proxied = false;             ///< OSG draws the use, and it has a proxy: see hasProxy
     uint64_t restart = 0;
     float depthBias = 0.0f;
     bool physical = false;
@@ -41,6 +43,10 @@ struct TracedUse
 {
     uint32_t instance = kInvalid; ///< kInvalid: the use is not traced
     uint32_t effects = kInvalid;  ///< kInvalid: OSG draws the use
+    /// Index of the effects with which OSG draws the use: all of them for a proxy, else rasterized
+    /// and proxied alone. kInvalid: the use is traced, or what it is drawn with is not known.
+    uint32_t left = kInvalid;
+    uint32_t subtree = kNoSubtree; ///< index into ConvertedGraph::subtrees
 };
 
 struct TracedGeometry
@@ -52,6 +58,7 @@ struct TracedGeometry
     bool raised = false; ///< true: its only use has raised faces, in a mesh made at its place
     bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
     bool plain = true;   ///< true: only its conversion is counted
+    std::unique_ptr<const ConversionCounts> remarks; ///< what else is counted; null: nothing
 };
 
 /// Uses are added, changed and removed by the functions below alone, which count.
@@ -90,6 +97,7 @@ struct SceneIndex
     std::size_t colorUses() const { return _colorUses; }
 
 private:
+    uint32_t leftEffects(const LeftState& left);
     bool setsColor(const TracedUse& use) const
     {
         return use.effects != kInvalid && stateEffects[use.effects].setsColor;

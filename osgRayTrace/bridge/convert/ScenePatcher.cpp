@@ -78,6 +78,14 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     takeMaterials();
     if (!moveAndDeform(changes) || !changeStates(changes.stateChanges)) return nullptr;
     if (!recut(changes.clips)) return nullptr;
+    for (const ChangedSubtree& one : changes.subtrees)
+        if (!redo(one)) return nullptr;
+    for (const uint32_t effects : _goneEffects)
+        if (isLastOf(effects))
+        {
+            refuse(ConversionCause::LastOfState, {});
+            return nullptr;
+        }
     if (changes.lights && !relightLamps()) return nullptr;
     takeMaterials();
     if (changes.view) setBackground();
@@ -98,6 +106,7 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
         if (!places.move(use)) return refuse(places.cause(), *use.geometry, use.use);
     for (const osg::Geometry* geometry : changes.deformed)
         if (!places.deform(*geometry)) return refuse(places.cause(), *geometry, 0);
+    recordPlaces(changes.moved);
     _changed |= places.changed();
     _leftStatic |= places.leftStatic();
     return true;

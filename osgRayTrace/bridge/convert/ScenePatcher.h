@@ -6,7 +6,10 @@
 #include "osgRayTrace/bridge/changes/GraphChanges.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
 
+#include <map>
 #include <memory>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,6 +45,15 @@ public:
     int64_t instancesMore() const { return _instances; }
     int64_t proxiesMore() const { return _proxies; }
 
+    /// Returns what else the report counts more, by its keys; fewer make it negative.
+    const std::map<std::string, int64_t>& countsMore() const { return _countsMore; }
+
+    /// Returns whether OSG draws other parts than before: see ConvertedSubtrees.
+    bool otherParts() const { return _otherParts; }
+
+    /// Returns whether files have come that are read when they are seen.
+    bool paged() const { return _paged; }
+
 private:
     bool splice(const GraphSplice& splice);
     bool remove(const GraphSplice& splice);
@@ -49,7 +61,16 @@ private:
     bool removeProxy(const ChangedUse& gone);
     bool addProxies(const CullSplice& splice);
     bool findBounds(CollectedGraph& graph);
-    ConversionCause addProxy(const CollectedGraph& graph, const CollectedGeometry& geometry);
+    ConversionCause addProxy(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                             uint32_t subtree);
+    bool redo(const ChangedSubtree& changed);
+    ConversionCause exchange(uint32_t subtree, const CollectedGraph& graph);
+    ConversionCause removeUses(const osg::Geometry& geometry, uint32_t subtree);
+    ConversionCause addUses(const CollectedGraph& graph, const CollectedGeometry& geometry,
+                            uint32_t subtree);
+    void record(uint32_t subtree, CollectedGraph& graph, const ConversionCounts& counts);
+    void recordPlaces(const std::vector<MovedUse>& moved);
+    void takeNewMaterials();
     void removeInstance(uint32_t index);
     void removeMesh(uint32_t index);
     ConversionCause removeUse(TracedGeometry& traced, uint32_t use);
@@ -65,6 +86,9 @@ private:
     bool changeStates(const std::vector<StateChange>& uses);
     bool changeState(const StateChange& use, StateStack& states, MaterialConverter& converter,
                      ConversionReport& report);
+    bool changeLeft(const StateChange& use, const TracedUse& traced, const GraphState& state,
+                    StateEffects effects, const SurfacePlacement& place,
+                    MaterialConverter& converter);
     bool relightLamps();
     bool relight();
     void setBackground();
@@ -85,6 +109,10 @@ private:
     std::vector<std::pair<uint32_t, Material>>
         _newMaterials; ///< instances that get other materials
     std::vector<osg::ref_ptr<const osg::Geometry>> _removed;
+    std::set<uint32_t> _redone;      ///< subtrees that have been collected again
+    std::set<uint32_t> _goneEffects; ///< effects of uses that are gone from them
+    std::map<std::string, int64_t> _countsMore;
+    bool _otherParts = false, _paged = false;
     int64_t _geometries = 0, _instances = 0, _proxies = 0;
     bool _changed = false;
     bool _leftStatic = false;

@@ -1,5 +1,6 @@
 // SplicePatch.cpp - patches a scene for nodes that came or went. Layer: bridge.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
 #include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
@@ -154,7 +155,8 @@ bool ScenePatcher::add(const GraphSplice& splice)
     const bool plain = lights.lights.empty() && lights.areaLights.empty() &&
                        lights.environments.empty() && lights.volumes.empty() &&
                        lights.tiles.empty() && graph.rasterized.empty() && !graph.paged &&
-                       graph.cullOutcomes.empty() && report.counts().empty();
+                       graph.cullOutcomes.empty() && graph.subtrees.empty() &&
+                       report.counts().empty();
     if (!plain) return refuse(ConversionCause::SpecialSubgraph, splice.added);
     graph.texGens = _convertedGraph.texGens;
     if (!findBounds(graph)) return refuse(ConversionCause::LargeSubgraph, splice.added);
@@ -179,13 +181,14 @@ ConversionCause ScenePatcher::stateCause(const CollectedGraph& graph,
     const bool automatic = _input.colorRule == RayTraceSettings::AUTOMATIC_COLOR;
     for (const GeometryUse& use : geometry.uses)
     {
+        if (clipPlanesOn(graph.states[use.state]) != 0) return ConversionCause::ClipPlanes;
+        if (use.proxy) continue;
         const StateEffects effects = stateEffectsOf(graph.states[use.state], _caches.textures);
         if (effects.physical && automatic && _scene->displayReferred)
             return ConversionCause::ColorRule;
         if (effects.setsColor && !_convertedGraph.setsColor) return ConversionCause::CurrentColor;
         if (effects.hasAmbient && effects.ambient != _scene->ambient)
             return ConversionCause::AmbientLight;
-        if (effects.clipPlanes != 0) return ConversionCause::ClipPlanes;
     }
     return ConversionCause::None;
 }

@@ -156,6 +156,12 @@ bool GeometryCache::hasSameArrays(const osg::Geometry& geometry)
     return true;
 }
 
+bool GeometryCache::isCurrent(const osg::Geometry& geometry)
+{
+    const Entry* entry = find(geometry);
+    return entry && entry->variance == geometry.getDataVariance() && hasSameArrays(geometry);
+}
+
 Mobility GeometryCache::mobility(const osg::Geometry& geometry) const
 {
     const auto found = _mobility.find(&geometry);

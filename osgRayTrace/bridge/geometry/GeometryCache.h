@@ -56,6 +56,10 @@ public:
     /// have asked for the geometry.
     bool hasSameArrays(const osg::Geometry& geometry);
 
+    /// Returns whether the geometry's last mesh was made from its arrays as they are, with its data
+    /// variance.
+    bool isCurrent(const osg::Geometry& geometry);
+
     Mobility mobility(const osg::Geometry& geometry) const;
 
     /// Records a mobility, which never decreases: a geometry that has moved once will move again.

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/bridge/appearance/textures/TextureUnits.h"
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
+#include "osgRayTrace/bridge/common/ConversionReport.h"
 #include "osgRayTrace/bridge/common/SceneExtent.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 #include "osgRayTrace/bridge/geometry/TriangleList.h"
@@ -31,6 +32,20 @@
 namespace osgRayTrace::engine
 {
 
+constexpr uint32_t kNoSubtree = 0xffffffffu;
+
+/// Names a subtree into which GraphWatch does not look node by node: what is at and below the
+/// outermost node of an unknown class on a path, or the outermost one whose cull traversal stands
+/// for what is below.
+struct UnwatchedSubtree
+{
+    osg::NodePath path;                     ///< from the root to that node
+    ConversionCounts counts;                ///< what the collector has counted there
+    std::vector<const osg::Geometry*> left; ///< its share of CollectedGraph::leftGeometries
+    std::size_t parts = 0;                  ///< number of parts that OSG draws before its own
+    bool special = false;                   ///< something in it shines or places state for others
+};
+
 /// A use is one path to a geometry.
 struct GeometryUse
 {
@@ -40,6 +55,7 @@ struct GeometryUse
     bool proxy = false;              ///< OSG draws the use, and camera rays pass it: see Proxies.h
     /// Number of the leaf of a cull traversal that the use stands for, see CulledLeaf.
     uint32_t culled = kNoCulledLeaf;
+    uint32_t subtree = kNoSubtree; ///< index into CollectedGraph::subtrees
 };
 
 struct CollectedGeometry
@@ -133,11 +149,15 @@ struct CollectedGraph
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
-    bool hasProxies = false;               ///< some use is a proxy
-    RasterizedParts rasterized;            ///< parts for OSG, if ConversionInput::rasterizesRest
-    NodeTree paths;                        ///< paths to pick, if ConversionInput::picks
-    std::vector<uint32_t> rasterizedPaths; ///< paths of rasterized, if ConversionInput::picks
-    std::vector<CullOutcome> cullOutcomes; ///< decisions on subtrees that may draw in cull alone
+    /// Geometries whose proxies would enclose the scene, and have been dropped.
+    std::vector<osg::ref_ptr<const osg::Geometry>> enclosures;
+    bool hasProxies = false;                  ///< some use is a proxy
+    RasterizedParts rasterized;               ///< parts for OSG, if ConversionInput::rasterizesRest
+    NodeTree paths;                           ///< paths to pick, if ConversionInput::picks
+    std::vector<uint32_t> rasterizedPaths;    ///< paths of rasterized, if ConversionInput::picks
+    std::vector<uint32_t> rasterizedSubtrees; ///< index of each part's subtree, or kNoSubtree
+    std::vector<UnwatchedSubtree> subtrees;   ///< in the order of the traversal
+    std::vector<CullOutcome> cullOutcomes;    ///< decisions on subtrees that may draw in cull alone
     bool cullUnknown = false; ///< true: there was no view that could decide on such a subtree
     /// Outermost nodes on their paths whose class GraphWatch does not know, if anything at or below
     /// them is traced, has a proxy, shines or places state.

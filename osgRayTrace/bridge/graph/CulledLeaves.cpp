@@ -83,6 +83,8 @@ bool GraphCollector::collectsChosen(osg::Drawable& drawable)
 /// Collects a node by the leaves of its cull traversal.
 void GraphCollector::collectCulled(osg::Node& node, CullOutcome& outcome, const char* reason)
 {
+    const bool outermost = _captured == 0;
+    if (outermost) _captured = getNodePath().size();
     if (!outcome.record.error().empty())
         _report.warn("warned.cull-exception", "node '" + path() + "'",
                      "has thrown an exception in a cull traversal, left to OSG: " +
@@ -102,6 +104,7 @@ void GraphCollector::collectCulled(osg::Node& node, CullOutcome& outcome, const 
     for (CulledLeaf& leaf : outcome.leaves)
         collectLeaf(leaf);
     --_untracked;
+    if (outermost) _captured = 0;
 }
 
 bool GraphCollector::collectLeavesAt(const osg::NodePath& path, std::vector<CulledLeaf>& leaves)
@@ -122,7 +125,7 @@ void GraphCollector::collectLeaf(CulledLeaf& leaf)
     if (leaf.left)
     {
         _report.count(leaf.left);
-        if (geometry && !leaf.made) _graph.leftGeometries.push_back(geometry);
+        if (geometry && !leaf.made) leave(*geometry);
     }
     if (leaf.isInScene() && pushMatrix(leaf.worldFromLocal))
     {

@@ -35,6 +35,12 @@ GraphCollector::GraphCollector(const ConversionInput& input, SoftwareVertices& v
       _materials({input.materials, input.hook, input.inheritedState}, rules.textures)
 {
     _report.setPlace([this] { return path(); });
+    _report.setListener(
+        [this](const std::string& what, uint64_t number)
+        {
+            const uint32_t in = subtree();
+            if (in != kNoSubtree) _graph.subtrees[in].counts[what] += number;
+        });
 }
 
 /// Moves below all nodes of a path but the last. Returns false if one of them places nothing.
@@ -62,6 +68,7 @@ CollectedGraph GraphCollector::take()
     _graph.states = _states.states();
     recordCuttingPlanes();
     _report.setPlace({});
+    _report.setListener({});
     _materials.reportRules(_report);
     return std::move(_graph);
 }
@@ -114,7 +121,7 @@ void GraphCollector::apply(osg::LightSource& node)
 {
     if (node.getLight())
     {
-        recordInScene();
+        recordSpecial();
         const bool eyeSpace = node.getReferenceFrame() == osg::LightSource::ABSOLUTE_RF;
         _graph.lights.lights.push_back(
             {&node, eyeSpace ? osg::Matrixd() : engineFromLocal(), eyeSpace, path()});
@@ -126,7 +133,7 @@ void GraphCollector::apply(osg::LightSource& node)
 /// Keeps the clear colour if OSG draws the background, so that mirrors show the same background.
 void GraphCollector::apply(osg::ClearNode& node)
 {
-    recordInScene();
+    recordSpecial();
     if (_input.rasterizesRest && node.getRequiresClear()) _graph.clearColor = node.getClearColor();
     rasterize(RasterizedPart::Clear);
     apply(static_cast<osg::Node&>(node));
@@ -135,6 +142,7 @@ void GraphCollector::apply(osg::ClearNode& node)
 void GraphCollector::apply(osg::ClipNode& node)
 {
     recordPlanes(planeNumbers(node));
+    if (const uint32_t in = subtree(); in != kNoSubtree) _graph.subtrees[in].special = true;
     rasterize(RasterizedPart::PlaceState);
     const bool inEyeSpace = node.getReferenceFrame() == osg::ClipNode::ABSOLUTE_RF;
     const osg::Matrixd engineFromPlane =
@@ -160,7 +168,7 @@ void GraphCollector::apply(osg::ProxyNode& node)
 
 void GraphCollector::apply(osg::TexGenNode& node)
 {
-    recordInScene();
+    recordSpecial();
     const bool inScene = node.getReferenceFrame() == osg::TexGenNode::RELATIVE_RF;
     if (!inScene && !_input.view)
         _report.count("approximated.absolute-texgen"); // OpenGL has eye space, this world space
@@ -222,7 +230,9 @@ void GraphCollector::apply(osg::Geometry& geometry)
     const AssignedState assigned = assignedState(geometry);
     if (_leftToOsg > 0 || (_input.rasterizesRest && rasterizes(geometry, isPosed, assigned.state)))
     {
-        if (isProxied(geometry)) collectUse(posed, assigned.state, true);
+        const bool proxied = isProxied(geometry);
+        recordLeft(geometry, assigned.state, proxied);
+        if (proxied) collectUse(posed, assigned.state, true);
         return;
     }
     if (assigned.by) _report.countFor("traced.by-rule", "'" + *assigned.by + "'");
@@ -247,8 +257,8 @@ void GraphCollector::collectUse(const osg::Geometry& geometry, uint32_t state, b
         _graph.geometries.push_back({&geometry, path(), {}, restart, pointRadiusOf(geometry)});
     CollectedGeometry& collected = _graph.geometries[found->second];
     collected.watched &= _untracked == 0;
-    collected.uses.push_back(
-        {engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy, _culledLeaf});
+    collected.uses.push_back({engineFromLocal(), state, proxy ? NodeTree::kNone : pickPath(), proxy,
+                              _culledLeaf, subtree()});
     _graph.hasProxies |= proxy;
 }
 
@@ -256,6 +266,7 @@ void GraphCollector::traverseChildren(osg::Node& node)
 {
     if (isTooDeep(node) || isTooMuch(node)) return;
     const bool untracked = &node != _input.root && kindOf(node) == NodeKind::Untracked;
+    if (untracked && _untracked == 0) subtree(); // it may be empty now, but not later
     _untracked += untracked;
     traverse(node);
     _untracked -= untracked;
@@ -326,18 +337,19 @@ bool GraphCollector::collectLeaf(osg::Node& node)
 {
     if (const auto* light = dynamic_cast<const AreaLight*>(&node))
     {
-        recordInScene();
+        recordSpecial();
         _graph.lights.areaLights.push_back({light, engineFromLocal(), path(), pickPath()});
         return true;
     }
     if (const auto* light = dynamic_cast<const EnvironmentLight*>(&node))
     {
-        recordInScene();
+        recordSpecial();
         _graph.lights.environments.push_back({light, engineFromLocal(), path()});
         return true;
     }
     if (const auto* volume = dynamic_cast<const MediumVolume*>(&node))
     {
+        recordSpecial();
         _graph.lights.volumes.push_back({volume, engineFromLocal(), path()});
         return true;
     }

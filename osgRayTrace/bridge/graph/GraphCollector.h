@@ -117,7 +117,11 @@ private:
     AssignedState assignedState(const osg::Drawable& drawable);
     const char* rasterizedReason(const osg::Geometry& geometry, bool isPosed, uint32_t state);
     bool rasterizes(const osg::Geometry& geometry, bool isPosed, uint32_t state);
+    void recordLeft(const osg::Geometry& geometry, uint32_t state, bool proxied);
     float pointRadiusOf(const osg::Geometry& geometry);
+    uint32_t subtree();
+    void recordSpecial();
+    void leave(const osg::Geometry& geometry);
     void recordInScene();
     void recordAllInScene();
     void recordPlanes(uint64_t numbers);
@@ -138,6 +142,8 @@ private:
     PathBudget _visits;
     PathBudget _rasterizedVisits; // budget of OSG's visits in each frame to parts left to it
     PathCounts _counts;
+    std::size_t _captured =
+        0;                    // length of the path to the outermost captured node; 0: there is none
     int _untracked = 0;       // number of enclosing nodes that GraphWatch does not look into
     int _leftToOsg = 0;       // number of enclosing nodes that OSG draws with all below them
     bool _isLeft = false;     // OSG draws an enclosing group as a whole

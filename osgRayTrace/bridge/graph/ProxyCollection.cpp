@@ -36,8 +36,7 @@ bool GraphCollector::leavesOut(const osg::Drawable& drawable)
     if (!isForTheMouse(drawable)) return false;
     _report.count("not-traced.mouse-handle");
     rasterize(RasterizedPart::Pick);
-    if (const osg::Geometry* geometry = drawable.asGeometry())
-        _graph.leftGeometries.push_back(geometry);
+    if (const osg::Geometry* geometry = drawable.asGeometry()) leave(*geometry);
     return true;
 }
 

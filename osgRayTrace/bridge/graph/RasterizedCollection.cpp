@@ -104,7 +104,7 @@ void GraphCollector::collectVolume(osg::Group& group)
         traverseGroup(group);
         return;
     }
-    recordInScene();
+    recordSpecial();
     const bool pushed = pushState(group);
     const GraphState& state = _states.states()[_states.top()];
     CollectedTile found{tile, engineFromLocal(), path(),
@@ -157,10 +157,10 @@ void GraphCollector::rasterize(RasterizedPart::Kind kind, osg::Node* inPlace)
     if (!_input.rasterizesRest || _leftToOsg > 0) return;
     if (_isLeft && kind == RasterizedPart::Draw)
     {
-        if (const osg::Geometry* geometry = getNodePath().back()->asGeometry())
-            _graph.leftGeometries.push_back(geometry);
+        if (const osg::Geometry* geometry = getNodePath().back()->asGeometry()) leave(*geometry);
         return;
     }
+    _graph.rasterizedSubtrees.push_back(subtree());
     _graph.rasterized.push_back(rasterizedPart(kind, getNodePath()));
     _graph.rasterized.back().inPlace = inPlace;
     _graph.rasterizedPaths.push_back(pickPath());
@@ -207,6 +207,15 @@ bool GraphCollector::rasterizes(const osg::Geometry& geometry, bool isPosed, uin
     const bool all = rest->getNumPrimitiveSets() == geometry.getNumPrimitiveSets();
     rasterize(RasterizedPart::Draw, all ? nullptr : rest.get());
     return false; // primitive sets without triangles are counted where triangles are made
+}
+
+/// Records why OSG draws the geometry, whose state has this number, if it is a part of its own.
+void GraphCollector::recordLeft(const osg::Geometry& geometry, uint32_t state, bool proxied)
+{
+    if (_graph.rasterized.empty()) return;
+    RasterizedPart& part = _graph.rasterized.back();
+    if (part.path.empty() || part.path.back() != &geometry) return;
+    part.left = {rasterizedState(_states.states()[state], _textures, nullptr), proxied};
 }
 
 /// Returns the radius of the geometry's points and lines, and names a geometry that has too many.

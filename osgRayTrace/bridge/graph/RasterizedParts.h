@@ -6,6 +6,7 @@
 #include <osg/Node>
 
 #include <memory>
+#include <optional>
 #include <unordered_set>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct TracedLeaves : osg::Referenced
     osg::ref_ptr<osg::StateSet> mark = new osg::StateSet;
 };
 
+/// Holds what decides on a geometry that OSG draws, as far as it depends on state: if both stay,
+/// nothing that is traced changes.
+struct LeftState
+{
+    const char* reason = nullptr; ///< see rasterizedState; null: another rule leaves it to OSG
+    bool proxied = false;         ///< see hasProxy
+};
+
 /// Names a drawable, camera or other node of the graph that is drawn as without ray tracing. A part
 /// may also be positional state (a light, clip planes, generated texture coordinates) that such a
 /// node may need.
@@ -48,6 +57,7 @@ struct RasterizedPart
     /// Node that is drawn in place of the last of path; may be null.
     osg::ref_ptr<osg::Node> inPlace;
     osg::ref_ptr<TracedLeaves> traced; ///< leaves that are not drawn; null: none
+    std::optional<LeftState> left;     ///< of a geometry that OSG draws for its state; else none
 };
 
 /// Lists parts in the order of the traversal. The list is immutable once it is published.

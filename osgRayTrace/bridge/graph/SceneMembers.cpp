@@ -1,12 +1,10 @@
 // SceneMembers.cpp - records which nodes of unknown classes are in the scene. Layer: bridge.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
-#include "osgRayTrace/bridge/common/NodeKind.h"
-#include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
+#include "osgRayTrace/bridge/graph/UnknownNode.h"
 
 #include <algorithm>
-#include <typeinfo>
 
 namespace osgRayTrace::engine
 {
@@ -15,11 +13,6 @@ namespace
 {
 
 using Nodes = std::unordered_set<const osg::Node*>;
-
-bool isUnknown(const osg::Node& node)
-{
-    return kindOf(node) == NodeKind::Untracked && typeid(node) != typeid(SceneRoot);
-}
 
 /// Adds the nodes of unknown classes at and below a node, whether or not they are visible.
 class UnknownNodes : public osg::NodeVisitor

@@ -266,7 +266,7 @@ void SceneUpdater::convertIfChanged(osg::Node* root, ViewingConditions condition
     else if (wasStale)
         patch.reason.cause = ConversionCause::FailedBefore;
     else
-        patch = _converter.patch(changes);
+        patch = _converter.patch(changes, conditions);
     if (!patch.conversion)
     {
         recordReason(patch.reason);
