@@ -95,6 +95,7 @@ std::string PassSums::add(const PassSums& other)
         PassSums joined = publicSums(std::move(*own));
         joined.picture = picture;
         joined.displayReferred = displayReferred;
+        joined.veiled = veiled;
         *this = std::move(joined);
         return {};
     }
@@ -152,8 +153,8 @@ osg::ref_ptr<osg::Image> PassSums::getDisplayImage(float exposureEv, const osg::
 {
     const osg::ref_ptr<RayTraceSettings> shown = new RayTraceSettings;
     if (!shown->set("tone-curve", toneCurve)) return nullptr;
-    const engine::ToneMap toneMap{exposureEv, displayReferred,
-                                  engine::toneCurve(shown->getToneCurve())};
+    engine::ToneMap toneMap{exposureEv, displayReferred, engine::toneCurve(shown->getToneCurve())};
+    engine::setVeiled(veiled, clearColor, toneMap);
     const auto make = [&](const engine::Film& film)
     {
         const osg::ref_ptr<osg::Image> image =

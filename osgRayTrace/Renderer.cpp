@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/common/PixelImage.h"
 #include "osgRayTrace/bridge/common/WarnOnce.h"
 #include "osgRayTrace/bridge/update/StatisticsFromEngine.h"
+#include "osgRayTrace/film/Resolve.h"
 
 #include <algorithm>
 #include <new>
@@ -212,6 +213,14 @@ void Renderer::cancel()
     if (_implementation->session) _implementation->session->cancel();
 }
 
+/// Returns whether an image can stand behind a picture.
+static bool isBackground(const osg::Image& image, int width, int height)
+{
+    return image.data() && image.s() == width && image.t() == height &&
+           image.getPixelFormat() == GL_RGBA && image.getDataType() == GL_UNSIGNED_BYTE &&
+           image.isDataContiguous();
+}
+
 osg::ref_ptr<osg::Image> Renderer::getColorImage() const
 {
     Implementation& self = *_implementation;
@@ -233,18 +242,37 @@ osg::ref_ptr<osg::Image> Renderer::getDisplayImage() const
     return withinMemory(
         [&self]
         {
-            engine::ToneMap toneMap =
-                engine::toneMapFromSettings(*self.settings, self.traced->scene());
-            toneMap.exposureEv += self.meteredEv();
-            const osg::ref_ptr<osg::Image> image = engine::newPixelImage(
-                self.session->width(), self.session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
+            engine::ToneMap toneMap = self.toneMap();
+            engine::setVeiled(self.traced->traits().veils, self.clearColor, toneMap);
+            const osg::ref_ptr<osg::Image> image = self.displayed(toneMap);
+            if (image) engine::blendOver(*image, self.clearColor);
+            return image;
+        });
+}
+
+osg::ref_ptr<osg::Image> Renderer::getDisplayImage(const osg::Image* background) const
+{
+    Implementation& self = *_implementation;
+    if (!self.hasImage()) return nullptr;
+    const int width = self.session->width(), height = self.session->height();
+    if (background && !isBackground(*background, width, height)) return nullptr;
+    return withinMemory(
+        [&]
+        {
+            const engine::ToneMap toneMap = self.toneMap();
+            if (!background || toneMap.displayReferred || !self.traced->traits().veils)
+            {
+                const osg::ref_ptr<osg::Image> image = self.displayed(toneMap);
+                if (image && background) engine::blendOver(*image, *background);
+                return image;
+            }
+            const osg::ref_ptr<osg::Image> image =
+                engine::newPixelImage(width, height, GL_RGBA, GL_UNSIGNED_BYTE);
             if (!image) return image;
-            if (self.denoises())
-                engine::presentImage(self.denoisedImage(), toneMap, *self.workers, image->data(),
-                                     nullptr);
-            else
-                self.session->resolveDisplay(toneMap, image->data(), nullptr);
-            engine::blendOver(*image, self.clearColor);
+            const std::vector<float> radiance =
+                self.denoises() ? self.denoisedImage().radiance : self.session->resolveRadiance();
+            engine::displayOver(radiance.data(), background->data(), radiance.size() / 4, toneMap,
+                                image->data());
             return image;
         });
 }

@@ -9,6 +9,7 @@
 #include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/common/HomeView.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
+#include "osgRayTrace/bridge/common/PixelImage.h"
 #include "osgRayTrace/bridge/common/SceneRoot.h"
 #include "osgRayTrace/bridge/common/ViewFromMatrices.h"
 #include "osgRayTrace/bridge/pick/PickIndex.h"
@@ -173,6 +174,25 @@ engine::PassSums Renderer::Implementation::checkedSums(const RenderedInputs& inp
     return std::move(*own);
 }
 
+engine::ToneMap Renderer::Implementation::toneMap()
+{
+    engine::ToneMap result = engine::toneMapFromSettings(*settings, traced->scene());
+    result.exposureEv += meteredEv();
+    return result;
+}
+
+osg::ref_ptr<osg::Image> Renderer::Implementation::displayed(const engine::ToneMap& shown)
+{
+    const osg::ref_ptr<osg::Image> image =
+        engine::newPixelImage(session->width(), session->height(), GL_RGBA, GL_UNSIGNED_BYTE);
+    if (!image) return image;
+    if (denoises())
+        engine::presentImage(denoisedImage(), shown, *workers, image->data(), nullptr);
+    else
+        session->resolveDisplay(shown, image->data(), nullptr);
+    return image;
+}
+
 /// Returns the text that names the session's image; empty before the first one.
 std::string Renderer::Implementation::pictureName() const
 {
@@ -186,6 +206,7 @@ PassSums Renderer::Implementation::passSums() const
     PassSums result = publicSums(std::move(*sums));
     result.picture = pictureName();
     result.displayReferred = rendered.traced->scene().displayReferred;
+    result.veiled = rendered.traced->traits().veils;
     return result;
 }
 

@@ -115,6 +115,12 @@ struct Renderer::Implementation
                engine::denoiseKind(*settings) != engine::DenoiseKind::Off;
     }
     engine::ResolvedImage denoisedImage();
+
+    /// Returns how the picture is shown, the metered exposure included.
+    engine::ToneMap toneMap();
+
+    /// Returns display values multiplied with alpha; null as newPixelImage. Throws std::bad_alloc.
+    osg::ref_ptr<osg::Image> displayed(const engine::ToneMap& toneMap);
 };
 
 } // namespace osgRayTrace

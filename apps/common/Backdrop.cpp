@@ -118,35 +118,69 @@ Backdrop readBackdrop(const std::string& text)
     return backdrop;
 }
 
+osg::ref_ptr<osg::Image> backdropImage(const Backdrop& backdrop, const PictureWindow& window,
+                                       int width, int height)
+{
+    if (backdrop.transparent) return nullptr;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, height, 1, GL_RGBA, GL_UNSIGNED_BYTE, 1);
+    if (!image->data()) throw std::bad_alloc();
+    const double aspect = static_cast<double>(window.fullWidth) / window.fullHeight;
+    for (int y = 0; y < height; ++y)
+    {
+        const double fromTop = window.top + (height - 1 - y) + 0.5;
+        for (int x = 0; x < width; ++x)
+        {
+            const osg::Vec4 color = colorAt(backdrop, (window.left + x + 0.5) / window.fullWidth,
+                                            1.0 - fromTop / window.fullHeight, aspect);
+            unsigned char* pixel = image->data(x, y);
+            for (int c = 0; c < 3; ++c)
+                pixel[c] = static_cast<unsigned char>(byteOf(color[c]));
+            pixel[3] = 255;
+        }
+    }
+    return image;
+}
+
+void makeStraight(osg::Image& display)
+{
+    unsigned char* const end = display.data() + display.getTotalSizeInBytes();
+    for (unsigned char* pixel = display.data(); pixel != end; pixel += 4)
+    {
+        const unsigned int alpha = pixel[3];
+        for (int c = 0; c < 3; ++c)
+        {
+            const unsigned int value = alpha > 0u ? (pixel[c] * 255u + alpha / 2u) / alpha : 0u;
+            pixel[c] = static_cast<unsigned char>(std::min(value, 255u));
+        }
+    }
+}
+
 void putBehind(const Backdrop& backdrop, const osg::Image& radiance, const osg::Vec4& clearColor,
                const PictureWindow& window, osg::Image& display)
 {
     const auto* alphas = reinterpret_cast<const float*>(radiance.data());
-    const double aspect = static_cast<double>(window.fullWidth) / window.fullHeight;
+    const osg::ref_ptr<osg::Image> behind =
+        backdropImage(backdrop, window, display.s(), display.t());
     for (int y = 0; y < display.t(); ++y)
     {
-        const double fromTop = window.top + (display.t() - 1 - y) + 0.5;
         for (int x = 0; x < display.s(); ++x)
         {
             unsigned char* pixel = display.data(x, y);
+            const unsigned char* below = behind ? behind->data(x, y) : nullptr;
             const std::size_t index = static_cast<std::size_t>(y) * radiance.s() + x;
             const unsigned int alpha = byteOf(alphas[4 * index + 3]), through = 255u - alpha;
-            const osg::Vec4 behind =
-                backdrop.transparent ? osg::Vec4(0, 0, 0, 0)
-                                     : colorAt(backdrop, (window.left + x + 0.5) / window.fullWidth,
-                                               1.0 - fromTop / window.fullHeight, aspect);
             for (int c = 0; c < 3; ++c)
             {
                 const unsigned int old = (through * byteOf(clearColor[c]) + 127u) / 255u;
                 const unsigned int own = pixel[c] > old ? pixel[c] - old : 0u;
-                const unsigned int value =
-                    backdrop.transparent ? (alpha > 0u ? (own * 255u + alpha / 2u) / alpha : 0u)
-                                         : own + (through * byteOf(behind[c]) + 127u) / 255u;
+                const unsigned int value = own + (below ? (through * below[c] + 127u) / 255u : 0u);
                 pixel[c] = static_cast<unsigned char>(std::min(value, 255u));
             }
-            pixel[3] = static_cast<unsigned char>(backdrop.transparent ? alpha : 255u);
+            pixel[3] = static_cast<unsigned char>(below ? 255u : alpha);
         }
     }
+    if (!behind) makeStraight(display);
 }
 
 osg::ref_ptr<osg::Camera> backdropCamera(const Backdrop& backdrop, double aspect)

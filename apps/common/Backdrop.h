@@ -32,6 +32,15 @@ struct PictureWindow
     int left = 0, top = 0, fullWidth = 0, fullHeight = 0;
 };
 
+/// Returns the backdrop behind a part of a picture: GL_RGBA, GL_UNSIGNED_BYTE. Null for a
+/// transparent one.
+osg::ref_ptr<osg::Image> backdropImage(const Backdrop& backdrop, const PictureWindow& window,
+                                       int width, int height);
+
+/// Divides the colours of a GL_RGBA, GL_UNSIGNED_BYTE picture by its alpha, as .png files have
+/// them.
+void makeStraight(osg::Image& display);
+
 /// Replaces the clear colour behind a picture by the backdrop. display: GL_RGBA, GL_UNSIGNED_BYTE,
 /// with the clear colour behind it; radiance: the same picture, GL_RGBA, GL_FLOAT, whose alpha says
 /// what is seen of the background; window: what display is of a whole picture. Of a transparent

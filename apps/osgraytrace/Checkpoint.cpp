@@ -23,7 +23,8 @@ using engine::ExrPlanes;
 const char* const kFormat = "osgRayTrace.sums"; ///< the version of the layout
 const char* const kPasses = "osgRayTrace.passes";
 const char* const kPicture = "osgRayTrace.picture";
-/// Display-referred, exposure, clear colour, and the tone curve if it is not sRGB's.
+/// Display-referred, exposure, clear colour, the tone curve if it is not sRGB's, and whether media
+/// veil the background.
 const char* const kShown = "osgRayTrace.shown";
 const char* const kVersion = "1";
 
@@ -93,7 +94,9 @@ std::string shownText(const Checkpoint& checkpoint)
     text += ' ' + engine::numberText(checkpoint.exposureEv);
     for (int i = 0; i < 4; ++i)
         text += ' ' + engine::numberText(checkpoint.clearColor[i]);
-    if (checkpoint.toneCurve != "srgb") text += ' ' + checkpoint.toneCurve;
+    if (checkpoint.toneCurve != "srgb" || checkpoint.sums.veiled)
+        text += ' ' + checkpoint.toneCurve;
+    if (checkpoint.sums.veiled) text += " veiled";
     return text;
 }
 
@@ -115,7 +118,9 @@ bool takeShown(const std::string& text, Checkpoint& checkpoint)
     checkpoint.clearColor.set(values[2], values[3], values[4], values[5]);
     if (!(words >> word)) return true;
     checkpoint.toneCurve = word;
-    return osg::ref_ptr<RayTraceSettings>(new RayTraceSettings)->set("tone-curve", word);
+    checkpoint.sums.veiled = (words >> word) && word == "veiled";
+    return osg::ref_ptr<RayTraceSettings>(new RayTraceSettings)
+        ->set("tone-curve", checkpoint.toneCurve);
 }
 
 std::string textOf(const ExrPlanes& planes, const char* name)

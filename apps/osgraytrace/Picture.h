@@ -18,6 +18,9 @@
 namespace osgRayTrace::app
 {
 
+/// The part of a picture that the options ask for.
+PictureWindow windowOf(const Options& options);
+
 struct Picture
 {
     osg::ref_ptr<osg::Image> radiance; ///< linear, GL_RGBA, GL_FLOAT

@@ -117,7 +117,9 @@ void setUp(osgViewer::Viewer& viewer, const Options& options, RayTracedScene& tr
     osg::Camera* master = viewer.getCamera();
     master->setGraphicsContext(createContext(options).get());
     master->setViewport(0, 0, options.width, options.height);
-    master->setClearColor(camera.clearColor);
+    osg::Vec4 clearColor = camera.clearColor;
+    if (options.backdrop.wanted) clearColor.a() = 0.0f; // it stands for the backdrop
+    master->setClearColor(clearColor);
     // The matrices stay as they are: the rays are those of a render without a context.
     master->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     master->setViewMatrix(camera.view);

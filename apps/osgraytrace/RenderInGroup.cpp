@@ -42,6 +42,7 @@ struct RankRender
     osg::ref_ptr<Renderer> renderer;
     Statistics statistics; ///< after the last pass
     bool displayReferred = false;
+    bool veiled = false; ///< PassSums::veiled
 };
 
 /// Returns the passes that are done of the sums, as a file of these options.
@@ -58,6 +59,7 @@ Checkpoint checkpointOf(const engine::PassSums& sums, const RankRender& render,
     kept.high = sums.high;
     kept.depth = sums.depth;
     kept.displayReferred = render.displayReferred;
+    kept.veiled = render.veiled;
     checkpoint.exposureEv = options.settings->getExposure();
     checkpoint.clearColor = camera.clearColor;
     checkpoint.toneCurve = options.settings->get("tone-curve");
@@ -89,6 +91,7 @@ PassWork workOf(RankRender& render, const Options& options)
         PassSums sums = render.renderer->getPassSums();
         if (sums.passes.empty() && render.statistics.passes > 0) return std::nullopt;
         render.displayReferred = sums.displayReferred;
+        render.veiled = sums.veiled;
         return engineSums(std::move(sums));
     };
     work.rays = [&render]
@@ -169,6 +172,7 @@ GroupPlan planOf(const Options& options, RankRender& render)
     printError(kProgram, options.checkpoint + ": goes on from passes " + before.passes);
     plan.basePicture = before.picture;
     render.displayReferred = before.displayReferred;
+    render.veiled = before.veiled;
     plan.base = engineSums(std::move(before));
     return plan;
 }

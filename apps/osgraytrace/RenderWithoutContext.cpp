@@ -30,7 +30,27 @@ void openShutter(const Options& options, TimedScene& shown, Renderer& renderer)
         });
 }
 
+/// Sets the images for display: over the clear colour, or over the backdrop of the options.
+void setDisplay(const Renderer& renderer, const Options& options, Picture& picture)
+{
+    const Backdrop& backdrop = options.backdrop;
+    if (!backdrop.wanted || backdrop.transparent) picture.display = renderer.getDisplayImage();
+    if (!backdrop.wanted) return;
+    const osg::ref_ptr<osg::Image> behind =
+        backdropImage(backdrop, windowOf(options), options.width, options.height);
+    (behind ? picture.display : picture.straight) = renderer.getDisplayImage(behind.get());
+    if (behind) return;
+    if (!picture.straight) throw Failure(kCannotRender, "no memory for the images");
+    makeStraight(*picture.straight);
+}
+
 } // namespace
+
+PictureWindow windowOf(const Options& options)
+{
+    const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
+    return {whole.left, whole.top, whole.fullWidth, whole.fullHeight};
+}
 
 osg::ref_ptr<Renderer> newRenderer(const Options& options, TimedScene& shown, const Camera& camera)
 {
@@ -51,7 +71,7 @@ Picture pictureOf(const Renderer& renderer, const Options& options)
 {
     Picture picture;
     picture.radiance = renderer.getColorImage();
-    picture.display = renderer.getDisplayImage();
+    setDisplay(renderer, options, picture);
     if (!picture.radiance || !picture.display)
         throw Failure(kCannotRender, "no memory for the images");
     picture.statistics = renderer.getStatistics();

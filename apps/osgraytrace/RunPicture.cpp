@@ -32,15 +32,13 @@ std::string missingParts(const Options& options, const Statistics& statistics)
                          : "left out without OpenGL: " + parts + "; --context egl draws them";
 }
 
-/// Puts the backdrop of the options behind a picture.
+/// Puts the backdrop of the options behind a picture that OpenGL has put before its clear colour.
 void placeBackdrop(const Options& options, const osg::Vec4& clearColor, Picture& picture)
 {
-    if (!options.backdrop.wanted) return;
-    const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
+    if (!options.backdrop.wanted || options.context == Context::None) return;
     if (options.backdrop.transparent)
         picture.straight = new osg::Image(*picture.display, osg::CopyOp::DEEP_COPY_ALL);
-    putBehind(options.backdrop, *picture.radiance, clearColor,
-              {whole.left, whole.top, whole.fullWidth, whole.fullHeight},
+    putBehind(options.backdrop, *picture.radiance, clearColor, windowOf(options),
               picture.straight ? *picture.straight : *picture.display);
 }
 

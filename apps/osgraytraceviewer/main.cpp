@@ -209,6 +209,12 @@ int show(osgViewer::Viewer& viewer, const Models& models, const std::string& tit
     viewer.setSceneData(root.get());
     addManipulators(viewer, options);
     if (const auto color = storedClearColor(*root)) viewer.getCamera()->setClearColor(*color);
+    if (options.backdrop.wanted) // fog before the backdrop is not mixed with the clear colour
+    {
+        osg::Vec4 color = viewer.getCamera()->getClearColor();
+        color.a() = 0.0f;
+        viewer.getCamera()->setClearColor(color);
+    }
     showView(viewer, *root, options);
     viewer.getCamera()->addFinalDrawCallback(handlers.keys->windowPicture());
     addHandlers(viewer, handlers, usage);

@@ -34,13 +34,15 @@ py::tuple stateOf(const PassSums& sums)
 {
     return py::make_tuple(sums.width, sums.height, sums.passes, py::bytes(sums.picture),
                           bytesOf(sums.low), bytesOf(sums.high), bytesOf(sums.depth),
-                          sums.displayReferred);
+                          sums.displayReferred, sums.veiled);
 }
 
-/// Returns the sums of a pickled state. Damaged sums are refused by whoever uses them.
+/// Returns the sums of a pickled state. Damaged sums are refused by whoever uses them. Older states
+/// have 8 elements, and their pictures are blended by alpha as they were then.
 PassSums sumsOf(const py::tuple& state)
 {
-    if (state.size() != 8) throw py::value_error("these are no sums of passes");
+    if (state.size() != 8 && state.size() != 9)
+        throw py::value_error("these are no sums of passes");
     PassSums sums;
     sums.width = py::cast<int>(state[0]);
     sums.height = py::cast<int>(state[1]);
@@ -50,6 +52,7 @@ PassSums sumsOf(const py::tuple& state)
     sums.high = valuesOf<std::int64_t>(state[5]);
     sums.depth = valuesOf<float>(state[6]);
     sums.displayReferred = py::cast<bool>(state[7]);
+    sums.veiled = state.size() > 8 && py::cast<bool>(state[8]);
     return sums;
 }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace osgRayTrace::engine
 {
@@ -70,10 +71,93 @@ void packEncoded(const RgbaLanes* __restrict blocks, float exposure, UintLanes* 
     }
 }
 
+/// Returns the integer that is nearest to 255 times a value in [0,1].
+OSGRAYTRACE_INLINE int byteLane(float x)
+{
+    return static_cast<int>(x * 255.0f + 0.5f);
+}
+
+/// Returns a channel of ToneMap's D for alpha = 1 - through / 255. Displays round what they blend:
+/// with the rounding of blendOver, the sum is the rounded encoding.
+OSGRAYTRACE_INLINE int overVeiled(float shown, float left, int through, float linear, int display)
+{
+    const int sum = byteLane(encodeLanes(clampUnit(shown + left * linear)));
+    const int rest = sum - (through * display + 127) / 255;
+    return rest > 0 ? rest : 0;
+}
+
+struct Background
+{
+    float linear[3];
+    int display[3]; ///< 0 .. 255
+};
+
+Background backgroundOf(const ToneMap& toneMap)
+{
+    Background background = {};
+    for (int c = 0; c < 3; ++c)
+    {
+        background.display[c] = byteLane(clampUnit(toneMap.background[c]));
+        background.linear[c] =
+            linearFromSrgb(static_cast<float>(background.display[c]) * (1.0f / 255.0f));
+    }
+    return background;
+}
+
+/// Packs what a display blends over a veiled background, see ToneMap. Displays blend nothing of an
+/// alpha of 0: light in air that is as thin as that gets the least alpha.
+OSGRAYTRACE_KERNEL
+void packVeiled(const RgbaLanes* __restrict blocks, float exposure, const Background& background,
+                UintLanes* __restrict packed)
+{
+    const float* linear = background.linear;
+    const int* display = background.display;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const float alpha = clampUnit(blocks[b].a[i]), left = 1.0f - alpha;
+            const float r = clampUnit(blocks[b].r[i] * exposure),
+                        g = clampUnit(blocks[b].g[i] * exposure),
+                        blue = clampUnit(blocks[b].b[i] * exposure);
+            const int some = r + g + blue > 0.0f ? 1 : 0;
+            const int rounded = byteLane(alpha);
+            const int cover = rounded > some ? rounded : some, through = 255 - cover;
+            packed[b][i] =
+                static_cast<uint32_t>(overVeiled(r, left, through, linear[0], display[0])) |
+                static_cast<uint32_t>(overVeiled(g, left, through, linear[1], display[1])) << 8 |
+                static_cast<uint32_t>(overVeiled(blue, left, through, linear[2], display[2]))
+                    << 16 |
+                static_cast<uint32_t>(cover) << 24;
+        }
+    }
+}
+
+/// Applies the curve to the light before a veiled background, which is not divided by alpha.
+void applyVeiledCurve(ToneCurve curve, float exposure, TileRgba& values)
+{
+    float alphas[kTileBlocks][kLanes];
+    for (int b = 0; b < kTileBlocks; ++b)
+        for (int i = 0; i < kLanes; ++i)
+            alphas[b][i] = std::exchange(values[b].a[i], 1.0f);
+    applyCurve(curve, exposure, values);
+    for (int b = 0; b < kTileBlocks; ++b)
+        for (int i = 0; i < kLanes; ++i)
+            values[b].a[i] = alphas[b][i];
+}
+
 /// Packs linear radiance as the tone map shows it; values are overwritten.
 void packShown(const ToneMap& toneMap, TileRgba& values, UintLanes* packed)
 {
     const float exposure = std::exp2(toneMap.exposureEv);
+    if (toneMap.veiled && !toneMap.displayReferred)
+    {
+        const bool curved = toneMap.curve != ToneCurve::Srgb;
+        if (curved) applyVeiledCurve(toneMap.curve, exposure, values);
+        packVeiled(values, curved ? 1.0f : exposure, backgroundOf(toneMap), packed);
+        return;
+    }
     if (toneMap.curve != ToneCurve::Srgb) applyCurve(toneMap.curve, exposure, values);
     packEncoded(values, toneMap.curve == ToneCurve::Srgb ? exposure : 1.0f, packed);
 }
@@ -224,6 +308,35 @@ void displayPixels(const float* rgba, std::size_t count, const ToneMap& toneMap,
                         static_cast<int>(pixels - whole * kLanes), values[whole]);
         packShown(toneMap, values, packed);
         std::memcpy(image + 4 * first, packed, 4 * pixels);
+    }
+}
+
+void displayOver(const float* rgba, const uint8_t* behind, std::size_t count,
+                 const ToneMap& toneMap, uint8_t* image)
+{
+    const bool curved = toneMap.curve != ToneCurve::Srgb;
+    const float exposure = std::exp2(toneMap.exposureEv), scale = curved ? 1.0f : exposure;
+    TileRgba values = {};
+    for (std::size_t first = 0; first < count; first += kTilePixels)
+    {
+        const std::size_t pixels = std::min<std::size_t>(kTilePixels, count - first);
+        for (std::size_t p = 0; p < pixels; p += kLanes)
+            splitPixels(rgba + 4 * (first + p),
+                        static_cast<int>(std::min<std::size_t>(kLanes, pixels - p)),
+                        values[p / kLanes]);
+        if (curved) applyVeiledCurve(toneMap.curve, exposure, values);
+        for (std::size_t p = 0; p < pixels; ++p)
+        {
+            const RgbaLanes& block = values[p / kLanes];
+            const std::size_t i = p % kLanes, at = 4 * (first + p);
+            const float left = 1.0f - clampUnit(block.a[i]);
+            const float light[3] = {block.r[i], block.g[i], block.b[i]};
+            for (std::size_t c = 0; c < 3; ++c)
+                image[at + c] = static_cast<uint8_t>(byteLane(encodeLanes(clampUnit(
+                    clampUnit(light[c] * scale) +
+                    left * linearFromSrgb(static_cast<float>(behind[at + c]) * (1.0f / 255.0f))))));
+            image[at + 3] = 255;
+        }
     }
 }
 

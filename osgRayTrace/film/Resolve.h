@@ -22,6 +22,12 @@ void resolveTileDisplay(const Film& film, int tile, const ToneMap& toneMap, uint
 /// pixels are linear.
 void displayPixels(const float* rgba, std::size_t count, const ToneMap& toneMap, uint8_t* image);
 
+/// Writes the display values of linear pixels as they look over a veiled background of its own
+/// colour for each of them: opaque, 4 bytes a pixel. behind: the background's display values, 4
+/// bytes a pixel.
+void displayOver(const float* rgba, const uint8_t* behind, std::size_t count,
+                 const ToneMap& toneMap, uint8_t* image);
+
 /// Writes the window depths of the first pass, 1 float a pixel; 1 for a tile without depths.
 void resolveTileDepth(const Film& film, int tile, float* depth);
 

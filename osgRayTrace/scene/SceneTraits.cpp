@@ -24,6 +24,7 @@ void addMedium(const Material& material, const MaterialDetail& detail, SceneTrai
     if (!opens || detail.thinWalled) return;
     traits.scattering |= detail.interior.scatters();
     traits.glowing |= detail.interior.emits();
+    traits.veils |= isInterface(material);
     traits.media |= detail.interior.scatters() || detail.interior.emits() ||
                     detail.interior.priority != 0 || isInterface(material);
 }
@@ -99,14 +100,14 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     const std::optional<Atmosphere> around = atmosphereOf(scene);
     if (around && !around->medium.isClear())
     {
-        traits.media = true;
+        traits.media = traits.veils = true;
         traits.scattering |= around->medium.scatters();
         traits.glowing |= around->medium.emits();
     }
     traits.ground = hasGround(scene.ground);
     for (const Volume& volume : scene.volumes)
     {
-        traits.volumes = traits.media = true;
+        traits.volumes = traits.media = traits.veils = true;
         traits.scattering |= volume.law == VolumeLaw::Density && volume.medium.scatters();
     }
     for (const Light& light : scene.lights)

@@ -26,6 +26,7 @@ struct SceneTraits
     bool attenuation = false; ///< light is absorbed within some body
     bool media = false;       ///< rays need to know what they travel through: see MediumTable
     bool volumes = false;     ///< some image fills a box: see GridTable; media is then set, too
+    bool veils = false;       ///< media dim what stands behind the scene for rays that hit nothing
     bool scattering = false;  ///< some medium scatters light
     bool glowing = false;     ///< some medium emits light
     bool deltaLights = false; ///< directional or point lights

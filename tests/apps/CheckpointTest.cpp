@@ -84,6 +84,23 @@ TEST_CASE("checkpoint: parts in any order are the picture of one machine, file b
     }
 }
 
+TEST_CASE("checkpoint: fog before nothing is merged as it is rendered", "[apps]")
+{
+    const TemporaryFolder folder;
+    const std::string options = dataFile("cornell_box_fog.osgt") + " --fovy 90 --size 24 16 ";
+    REQUIRE(
+        osgraytrace(folder, options + "--passes 2 --checkpoint whole.exr -o whole.png").exitCode ==
+        0);
+    for (const std::string part : {"0:1", "1:2"})
+        REQUIRE(osgraytrace(folder, options + "--passes " + part + " --checkpoint part" +
+                                        part.substr(0, 1) + ".exr")
+                    .exitCode == 0);
+    REQUIRE(osgraytrace(folder, "--merge part0.exr part1.exr --checkpoint merged.exr -o merged.png")
+                .exitCode == 0);
+    CHECK((contents(folder / "merged.exr") == contents(folder / "whole.exr")));
+    CHECK((contents(folder / "merged.png") == contents(folder / "whole.png")));
+}
+
 TEST_CASE("checkpoint: the same command goes on after it was killed", "[apps]")
 {
     const TemporaryFolder folder;

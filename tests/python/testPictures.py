@@ -128,6 +128,19 @@ class PicturesAreThoseOfCpp(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "picture|pass"):
             parts[0].add(parts[1])
 
+    def test_older_pickles_of_passes_are_loaded_and_others_refused(self):
+        renderer = cornell_box(max_passes=1)
+        renderer.render()
+        sums = renderer.pass_sums()
+        state = sums.__getstate__()
+        self.assertEqual(len(state), 9)
+        older = osgraytrace.PassSums.__new__(osgraytrace.PassSums)
+        older.__setstate__(state[:8])
+        self.assertTrue(numpy.array_equal(older.color(), sums.color()))
+        self.assertEqual(older.__getstate__(), state)
+        with self.assertRaisesRegex(ValueError, "^these are no sums of passes$"):
+            osgraytrace.PassSums.__new__(osgraytrace.PassSums).__setstate__(state[:7])
+
 
 class ArraysShareMemory(unittest.TestCase):
     def test_shapes_and_types(self):

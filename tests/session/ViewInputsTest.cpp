@@ -55,3 +55,27 @@ TEST_CASE("view inputs: the tone map has the exposure of the inputs and the scen
     inputs.scene = TracedScene::build(shown, std::make_shared<Workers>(1));
     CHECK(toneMapOf(inputs) == ToneMap{2.0f, shown->displayReferred});
 }
+
+TEST_CASE("view inputs: media veil a background that is opaque, in linear light alone", "[session]")
+{
+    ViewInputs inputs;
+    Medium haze;
+    haze.sigmaA = Vec3(0.1f);
+    const auto toneMapWith = [&inputs](Vec4 background, const Medium& medium, bool displayReferred)
+    {
+        auto shown = std::make_shared<Scene>(cornellBox().build()->scene());
+        shown->atmosphere = std::make_shared<Atmosphere>(Atmosphere{medium});
+        shown->background = background;
+        shown->displayReferred = displayReferred;
+        inputs.scene = TracedScene::build(shown, std::make_shared<Workers>(1));
+        return toneMapOf(inputs);
+    };
+    const ToneMap veiled = toneMapWith(Vec4(1.0f, 0.0f, 0.25f, 1.0f), haze, false);
+    CHECK(veiled.veiled);
+    CHECK(veiled.background.x == Approx(1.0f));
+    CHECK(veiled.background.y == 0.0f);
+    CHECK(veiled.background.z == Approx(srgbFromLinear(0.25f)));
+    CHECK_FALSE(toneMapWith(Vec4(1.0f, 0.0f, 0.25f, 0.5f), haze, false).veiled);
+    CHECK_FALSE(toneMapWith(Vec4(1.0f, 0.0f, 0.25f, 1.0f), haze, true).veiled);
+    CHECK_FALSE(toneMapWith(Vec4(1.0f, 0.0f, 0.25f, 1.0f), Medium(), false).veiled);
+}

@@ -61,4 +61,20 @@ void blendOver(osg::Image& image, const osg::Vec4& color)
     }
 }
 
+void blendOver(osg::Image& image, const osg::Image& background)
+{
+    const unsigned char* below = background.data();
+    unsigned char* const end = image.data() + image.getTotalSizeInBytes();
+    for (unsigned char* pixel = image.data(); pixel != end; pixel += 4, below += 4)
+    {
+        const unsigned int through = 255u - pixel[3];
+        for (int i = 0; i < 3; ++i)
+        {
+            const unsigned int sum = pixel[i] + (through * below[i] + 127u) / 255u;
+            pixel[i] = static_cast<unsigned char>(std::min(sum, 255u));
+        }
+        pixel[3] = 255;
+    }
+}
+
 } // namespace osgRayTrace::engine

@@ -24,4 +24,8 @@ osg::ref_ptr<osg::Image> pixelImage(const std::vector<float>& values, int width,
 /// nearest to the result of OpenGL's (GL_ONE, GL_ONE_MINUS_SRC_ALPHA) in a frame buffer of 8 bits.
 void blendOver(osg::Image& image, const osg::Vec4& color);
 
+/// Does the same over opaque pixels of a background of the same size and format, both without
+/// padding.
+void blendOver(osg::Image& image, const osg::Image& background);
+
 } // namespace osgRayTrace::engine

@@ -133,6 +133,13 @@ ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene
     return toneMap;
 }
 
+void setVeiled(bool veils, const osg::Vec4& clearColor, ToneMap& toneMap)
+{
+    toneMap.veiled = veils && !toneMap.displayReferred && clearColor.a() >= 1.0f;
+    for (int c = 0; c < 3; ++c)
+        toneMap.background[c] = clearColor[c];
+}
+
 DenoiseKind denoiseKind(const RayTraceSettings& settings)
 {
     if (settings.getIntegrator() == RayTraceSettings::DEBUG) return DenoiseKind::Off;

@@ -23,6 +23,10 @@ ToneCurve toneCurve(RayTraceSettings::ToneCurve curve);
 /// colour rule.
 ToneMap toneMapFromSettings(const RayTraceSettings& settings, const Scene& scene);
 
+/// Lets media veil the clear colour if they veil anything, as far as it is opaque and the image
+/// linear.
+void setVeiled(bool veils, const osg::Vec4& clearColor, ToneMap& toneMap);
+
 /// Returns how images are denoised before they are displayed. Debug channels are not denoised.
 DenoiseKind denoiseKind(const RayTraceSettings& settings);
 

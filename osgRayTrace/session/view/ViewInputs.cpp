@@ -4,8 +4,26 @@
 
 #include "osgRayTrace/accel/TracedScene.h"
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
+
+namespace
+{
+
+/// Lets media veil the background if they veil anything. A background with an alpha below 1 stands
+/// for something else, which is not known.
+void setVeiled(const TracedScene& traced, ToneMap& toneMap)
+{
+    const Scene& scene = traced.scene();
+    toneMap.veiled = traced.traits().veils && !scene.displayReferred && scene.background.w >= 1.0f;
+    if (!toneMap.veiled) return;
+    for (int c = 0; c < 3; ++c)
+        toneMap.background[c] = std::clamp(srgbFromLinear(scene.background[c]), 0.0f, 1.0f);
+}
+
+} // namespace
 
 ToneMap toneMapOf(const ViewInputs& inputs)
 {
@@ -13,6 +31,7 @@ ToneMap toneMapOf(const ViewInputs& inputs)
     toneMap.exposureEv = inputs.exposureEv;
     toneMap.curve = inputs.toneCurve;
     toneMap.displayReferred = inputs.scene->scene().displayReferred;
+    setVeiled(*inputs.scene, toneMap);
     return toneMap;
 }
 

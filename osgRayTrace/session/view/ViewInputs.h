@@ -38,8 +38,8 @@ struct ViewInputs
     int passesPerFrame = 1; ///< passes of a frame without a budget
 };
 
-/// Returns how an image of the scene is shown: by the inputs' exposure and the scene's colour rule.
-/// The inputs have a scene.
+/// Returns how an image of the scene is shown: by the inputs' exposure, the scene's colour rule,
+/// and the background if media veil it. The inputs have a scene.
 ToneMap toneMapOf(const ViewInputs& inputs);
 
 /// Returns true if the image of one is as good for the other.
