@@ -75,58 +75,8 @@ float texelsAcross(const Scene& scene, const Material& material,
     return std::max(longest, glm::length((triangle.uac - triangle.uab) * size));
 }
 
-LightEmitter triangleEmitter(const EmissiveMesh::Triangle& t, uint32_t light, Vec3 radiance,
-                             bool textured)
-{
-    LightEmitter emitter{};
-    set(emitter.corner, t.a);
-    set(emitter.edgeU, t.ab);
-    set(emitter.edgeV, t.ac);
-    emitter.area = t.area;
-    set(emitter.radiance, radiance);
-    emitter.light = light;
-    emitter.primitive = t.primitive;
-    emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
-    return emitter;
-}
-
 /// A part of this many triangles is one piece of work.
 constexpr std::size_t kTrianglesAtOnce = 4096;
-
-/// What the emitters of a mesh are made of.
-struct EmitterSources
-{
-    const Scene& scene;
-    const LightTable& table;
-    const MaterialTable* materials;
-    const Workers* workers;
-};
-
-/// Sets the emitters of a mesh.
-void setMesh(const EmitterSources& from, uint32_t index, LightEmitter* emitters)
-{
-    const Light& light = from.scene.lights[index];
-    const uint32_t number = from.scene.instances[light.instance].material;
-    const Material& material = from.scene.materials[number];
-    const bool textured = from.materials && emitsUnevenly(material);
-    const auto& triangles = from.table.mesh(index).triangles;
-    const auto setPart = [&](std::size_t begin, std::size_t end)
-    {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-            const EmissiveMesh::Triangle& t = triangles[k];
-            Vec3 radiance = light.radiance;
-            if (textured)
-            {
-                radiance = meanRadiance(*from.materials, number, emissionUvSet(material), t,
-                                        texelsAcross(from.scene, material, t));
-                radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
-            }
-            emitters[k] = triangleEmitter(t, index, radiance, textured);
-        }
-    };
-    forEachPart(from.workers, triangles.size(), kTrianglesAtOnce, setPart);
-}
 
 LightEmitter parallelogram(const Light& light, uint32_t index, float area)
 {
@@ -188,6 +138,19 @@ LightBounds pointBounds(const LightEmitter& emitter)
     return bounds;
 }
 
+/// Returns what boundsEmitter has stored.
+LightBounds meshBounds(const LightEmitter& emitter)
+{
+    LightBounds bounds;
+    bounds.low = vectorOf(emitter.corner);
+    bounds.high = bounds.low + vectorOf(emitter.edgeU);
+    bounds.axis = vectorOf(emitter.edgeV);
+    bounds.cosCone = emitter.radiance[0];
+    bounds.intensity = emitter.area;
+    bounds.twoSided = true;
+    return bounds;
+}
+
 } // namespace
 
 bool isInTree(const Light& light)
@@ -206,13 +169,73 @@ bool isInTree(const Light& light)
     return false;
 }
 
+LightEmitter triangleEmitter(const EmissiveMesh::Triangle& t, uint32_t light, Vec3 radiance,
+                             bool textured)
+{
+    LightEmitter emitter{};
+    set(emitter.corner, t.a);
+    set(emitter.edgeU, t.ab);
+    set(emitter.edgeV, t.ac);
+    emitter.area = t.area;
+    set(emitter.radiance, radiance);
+    emitter.light = light;
+    emitter.primitive = t.primitive;
+    emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
+    return emitter;
+}
+
+MeshRadiance meshRadiance(const Scene& scene, const Light& light, const MaterialTable* materials)
+{
+    const uint32_t number = scene.instances[light.instance].material;
+    const Material& material = scene.materials[number];
+    if (!materials || !emitsUnevenly(material)) return {nullptr, 0, 0, light.radiance};
+    return {materials, number, emissionUvSet(material), light.radiance};
+}
+
+void setTriangleEmitters(const Scene& scene, const EmissiveMesh& mesh, const MeshRadiance& radiance,
+                         uint32_t light, LightEmitter* emitters, const Workers* workers)
+{
+    const bool textured = !radiance.isEven();
+    const auto setPart = [&](std::size_t begin, std::size_t end)
+    {
+        for (std::size_t k = begin; k < end; ++k)
+        {
+            const EmissiveMesh::Triangle t = mesh.triangle(k);
+            Vec3 shines = radiance.light;
+            if (textured)
+            {
+                const Material& material = scene.materials[radiance.material];
+                shines = meanRadiance(*radiance.materials, radiance.material, radiance.uvSet, t,
+                                      texelsAcross(scene, material, t));
+                shines = glm::max(shines, radiance.light * kLeastTextureShare);
+            }
+            emitters[k] = triangleEmitter(t, light, shines, textured);
+        }
+    };
+    forEachPart(workers, mesh.size(), kTrianglesAtOnce, setPart);
+}
+
+LightEmitter boundsEmitter(const LightBounds& bounds, uint32_t light)
+{
+    LightEmitter emitter{};
+    set(emitter.corner, bounds.low);
+    set(emitter.edgeU, bounds.high - bounds.low);
+    set(emitter.edgeV, bounds.axis);
+    emitter.area = bounds.intensity;
+    emitter.radiance[0] = bounds.cosCone;
+    emitter.light = light;
+    emitter.primitive = kInvalid;
+    emitter.flags = kMesh | kTwoSided;
+    return emitter;
+}
+
 LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
                             const MaterialTable* materials, const Workers* workers)
 {
     std::size_t count = table.areaLights().size();
     for (const uint32_t index : table.areaLights())
-        if (scene.lights[index].kind == LightKind::Mesh)
-            count += table.mesh(index).triangles.size() - 1;
+        if (scene.lights[index].kind == LightKind::Mesh && !table.ownTree(index))
+            count += table.mesh(index).size() - 1;
     for (const uint32_t index : table.deltaLights())
         count += isInTree(scene.lights[index]);
     LightEmitters emitters(count);
@@ -220,13 +243,17 @@ LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
     for (const uint32_t index : table.areaLights())
     {
         const Light& light = scene.lights[index];
-        if (light.kind == LightKind::Mesh)
-        {
-            setMesh({scene, table, materials, workers}, index, emitters.data() + at);
-            at += table.mesh(index).triangles.size();
-        }
-        else
+        if (light.kind == LightKind::Parallelogram)
             emitters[at++] = parallelogram(light, index, table.area(index));
+        else if (const PlacedLightTree* own = table.ownTree(index))
+            emitters[at++] = meshEmitter(*own);
+        else
+        {
+            const EmissiveMesh& mesh = table.mesh(index);
+            setTriangleEmitters(scene, mesh, meshRadiance(scene, light, materials), index,
+                                emitters.data() + at, workers);
+            at += mesh.size();
+        }
     }
     for (const uint32_t index : table.deltaLights())
         if (isInTree(scene.lights[index])) emitters[at++] = point(scene.lights[index], index);
@@ -236,6 +263,7 @@ LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
 LightBounds boundsOf(const LightEmitter& emitter)
 {
     if (emitter.isPoint()) return pointBounds(emitter);
+    if (emitter.isMesh()) return meshBounds(emitter);
     const Vec3 corner = vectorOf(emitter.corner), u = vectorOf(emitter.edgeU),
                v = vectorOf(emitter.edgeV);
     const Vec3 far = emitter.flags & kTriangle ? corner + u : corner + u + v;

@@ -23,6 +23,20 @@ LightTree::LightTree(const LightTree& shape, const LightEmitters& emitters, cons
     setNodes(emitters, workers);
 }
 
+std::shared_ptr<const LightTree> LightTree::after(const std::shared_ptr<const LightTree>& previous,
+                                                  const LightEmitters& emitters,
+                                                  const Workers* workers)
+{
+    constexpr double kMostSpread = 1.5; // times the spread for which the shape was made
+    if (previous && previous->holds(emitters)) return previous;
+    if (previous && previous->size() == emitters.size())
+    {
+        auto refitted = std::make_shared<const LightTree>(*previous, emitters, workers);
+        if (refitted->spread() <= kMostSpread * refitted->spreadAtBuild()) return refitted;
+    }
+    return std::make_shared<const LightTree>(emitters, workers);
+}
+
 /// Puts the emitters in the order of the leaves, and joins their bounds from the leaves up. The
 /// subtrees do not depend on each other, and their sums are added in their order.
 void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
@@ -42,6 +56,7 @@ void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
         joinedPairs[subtrees[k].pair] = parts[k];
+        if (subtrees[k].pair == 0) _bounds = parts[k].bounds;
         _spread += parts[k].spread;
         _areasOnly &= !parts[k].points;
         _hasRectangles |= parts[k].rectangles;
@@ -51,6 +66,7 @@ void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
         const uint32_t pair = _pairs->top[k];
         const Joined top = setTop(pair, emitters, joinedPairs);
         joinedPairs[pair] = top;
+        if (pair == 0) _bounds = top.bounds;
         _spread += top.spread;
         _areasOnly &= !top.points;
         _hasRectangles |= top.rectangles;
@@ -127,7 +143,7 @@ LightTree::Joined LightTree::setTop(uint32_t pair, const LightEmitters& emitters
     return all;
 }
 
-LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float u) const
+LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float& u) const
 {
     const PlainVec3 point = plainOf(p), n = plainOf(normal);
     Choice choice{0, 1.0f};

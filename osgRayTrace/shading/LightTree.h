@@ -50,7 +50,17 @@ public:
     LightTree(const LightTree& shape, const LightEmitters& emitters,
               const Workers* workers = nullptr);
 
+    /// Returns a tree over at least two emitters: previous if it is that of these emitters, in the
+    /// constructor's order; one of its shape if they are as many and have not moved far apart; else
+    /// a tree with a shape of its own. previous, workers: may be null.
+    static std::shared_ptr<const LightTree> after(const std::shared_ptr<const LightTree>& previous,
+                                                  const LightEmitters& emitters,
+                                                  const Workers* workers);
+
     std::size_t size() const { return _emitters.size(); }
+
+    /// Returns bounds of all its lights.
+    const LightBounds& bounds() const { return _bounds; }
     const LightEmitter& emitter(uint32_t number) const { return _emitters[number]; }
     const LightEmitter* emitters() const { return _emitters.data(); }
 
@@ -65,14 +75,15 @@ public:
         uint32_t emitter = kInvalid;
         float pmf = 0.0f;
     };
-    /// Chooses an emitter for a surface point. normal: see importance(). u in [0,1).
-    Choice choose(Vec3 p, Vec3 normal, float u) const;
+    /// Chooses an emitter for a surface point. normal: see importance(). u in [0,1), which is set
+    /// to what is left of it to choose more.
+    Choice choose(Vec3 p, Vec3 normal, float& u) const;
 
     /// Returns the probability with which choose() takes an emitter; the sum over all is 1.
     float pmf(Vec3 p, Vec3 normal, uint32_t emitter) const;
 
-    /// Chooses an emitter in each lane.
-    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, const FloatLanes& u,
+    /// Chooses an emitter in each lane, and sets u to what is left of it.
+    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, FloatLanes& u,
                      UintLanes& emitters, FloatLanes& pmf) const;
 
     /// Returns the sum over all nodes of intensity times radius, which grows as lights that were
@@ -116,6 +127,7 @@ private:
     bool _areasOnly = true;              ///< no emitter is a point light
     bool _hasRectangles = false;         ///< some emitter is a rectangle
     double _spread = 0.0, _spreadAtBuild = 0.0;
+    LightBounds _bounds;
 };
 
 /// Returns the probability of the first node of a pair.

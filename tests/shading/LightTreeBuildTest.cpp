@@ -50,18 +50,20 @@ std::vector<Asked> randomPoints(int count)
 }
 
 /// Returns how many of the emitters, ways and choices of two trees differ in any bit.
-int differences(const LightTree& a, const LightTree& b, const std::vector<Asked>& points)
+int differences(const SceneLightTree& a, const SceneLightTree& b, const std::vector<Asked>& points)
 {
-    int different = a.spread() != b.spread() || a.spreadAtBuild() != b.spreadAtBuild();
+    int different = a.top()->spread() != b.top()->spread() ||
+                    a.top()->spreadAtBuild() != b.top()->spreadAtBuild();
     for (uint32_t k = 0; k < a.size(); ++k)
     {
-        different += std::memcmp(&a.emitter(k), &b.emitter(k), sizeof(LightEmitter)) != 0;
-        different += a.numberOf(k) != b.numberOf(k);
+        const LightEmitter x = a.emitter(k), y = b.emitter(k);
+        different += std::memcmp(&x, &y, sizeof(LightEmitter)) != 0;
+        different += a.top()->numberOf(k) != b.top()->numberOf(k);
     }
     for (const Asked& at : points)
     {
-        const LightTree::Choice x = a.choose(at.p, at.normal, at.u),
-                                y = b.choose(at.p, at.normal, at.u);
+        const SceneLightTree::Choice x = a.choose(at.p, at.normal, at.u),
+                                     y = b.choose(at.p, at.normal, at.u);
         different += x.emitter != y.emitter || x.pmf != y.pmf;
         for (uint32_t k = 0; k < a.size(); k += 97)
             different += a.pmf(at.p, at.normal, k) != b.pmf(at.p, at.normal, k);
@@ -90,7 +92,7 @@ TEST_CASE("light tree: the same for any number of threads, built and refitted", 
         int wrong = 0;
         for (uint32_t k = 0; k < table.tree()->size(); ++k)
         {
-            const LightEmitter& e = refitted.tree()->emitter(k);
+            const LightEmitter e = refitted.tree()->emitter(k);
             wrong += !e.isPoint() && refitted.emitterOf(e.light, e.primitive) != k;
         }
         CHECK(wrong == 0);
@@ -102,7 +104,7 @@ TEST_CASE("light tree: the probabilities of a large tree sum to 1", "[shading]")
     const SceneBuilder builder = shining(Vec3(0.0f));
     const Workers workers(2);
     const LightTable table(*builder.scene, nullptr, nullptr, &workers);
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     for (const Asked& at : randomPoints(20))
     {
         double sum = 0.0;
