@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/EmissiveMesh.h"
 
-#include "osgRayTrace/shading/RunningShares.h"
+#include "osgRayTrace/base/LargeArray.h"
+#include "osgRayTrace/shading/MeshCorners.h"
 
 #include <cmath>
 
@@ -20,40 +21,43 @@ float sumAbs(Vec3 v)
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
-struct Corners
-{
-    Vec3 a, ab, ac;
-};
-
-Corners cornersOf(const Mesh& mesh, const MeshPlace& place, std::size_t primitive)
-{
-    const UVec3& t = mesh.triangles[primitive];
-    Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-    if (place.placed)
-        for (Vec3& q : p)
-            q = transformPoint(place.engineFromLocal, q);
-    return {p[0], p[1] - p[0], p[2] - p[0]};
-}
-
-double areaOf(const Corners& t)
-{
-    return 0.5 * glm::length(glm::cross(Vec3d(t.ab), Vec3d(t.ac)));
-}
-
 /// What is known of the triangles of one piece of work.
 struct Extent
 {
     float largest = 0.0f, largestEdges = 0.0f;
     Vec3 low{kInfinity}, high{-kInfinity};
+    std::size_t flat = 0; ///< how many have no area
 
-    void add(const Corners& t)
+    void add(const MeshCorners& t)
     {
         largest = std::max(largest, sumAbs(t.a) + sumAbs(t.ab) + sumAbs(t.ac));
         largestEdges = std::max(largestEdges, sumAbs(t.ab) + sumAbs(t.ac));
         low = glm::min(low, glm::min(t.a, glm::min(t.a + t.ab, t.a + t.ac)));
         high = glm::max(high, glm::max(t.a, glm::max(t.a + t.ab, t.a + t.ac)));
     }
+    void add(const Extent& o)
+    {
+        largest = std::max(largest, o.largest);
+        largestEdges = std::max(largestEdges, o.largestEdges);
+        low = glm::min(low, o.low);
+        high = glm::max(high, o.high);
+        flat += o.flat;
+    }
 };
+
+/// Removes triangles without an area from a list of areas, and numbers the others.
+void dropFlat(UnclearedArray<double>& areas, std::size_t count, EmissiveAreas& result)
+{
+    result.indices.assign(count, kInvalid);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+        if (!(areas[k] > 0.0)) continue;
+        const std::size_t index = result.primitives.size();
+        result.indices[k] = static_cast<uint32_t>(index);
+        result.primitives.push_back(static_cast<uint32_t>(k));
+        areas[index] = areas[k];
+    }
+}
 
 } // namespace
 
@@ -61,49 +65,50 @@ std::shared_ptr<const EmissiveAreas> emissiveAreas(const std::shared_ptr<const M
                                                    const MeshPlace& place, const Workers* workers)
 {
     const std::size_t count = mesh->triangles.size();
-    std::vector<double> areas(count);
+    UnclearedArray<double> sums(count); // first areas, then running sums
     std::vector<Extent> extents((count + kTrianglesAtOnce - 1) / kTrianglesAtOnce);
     const auto measure = [&](std::size_t begin, std::size_t end)
     {
-        Extent& extent = extents[begin / kTrianglesAtOnce];
+        Extent extent;
         for (std::size_t k = begin; k < end; ++k)
         {
-            const Corners t = cornersOf(*mesh, place, k);
-            areas[k] = areaOf(t);
-            if (areas[k] > 0.0) extent.add(t);
+            const MeshCorners t = cornersOf(*mesh, place, k);
+            const double area = triangleArea(t.ab, t.ac);
+            sums[k] = area;
+            if (area > 0.0)
+                extent.add(t);
+            else
+                ++extent.flat;
         }
+        extents[begin / kTrianglesAtOnce] = extent;
     };
     forEachPart(workers, count, kTrianglesAtOnce, measure);
+    Extent all;
+    for (const Extent& e : extents)
+        all.add(e);
 
     auto result = std::make_shared<EmissiveAreas>();
     result->mesh = mesh;
     result->place = place;
-    if (std::any_of(areas.begin(), areas.end(), [](double a) { return !(a > 0.0); }))
-    {
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < count; ++k)
-        {
-            if (!(areas[k] > 0.0)) continue;
-            result->primitives.push_back(static_cast<uint32_t>(k));
-            areas[kept++] = areas[k];
-        }
-        areas.resize(kept);
-    }
-    for (const double area : areas)
-        result->area += area;
-    Extent all;
-    for (const Extent& e : extents)
-    {
-        all.largest = std::max(all.largest, e.largest);
-        all.largestEdges = std::max(all.largestEdges, e.largestEdges);
-        all.low = glm::min(all.low, e.low);
-        all.high = glm::max(all.high, e.high);
-    }
+    if (all.flat > 0) dropFlat(sums, count, *result);
+    const std::size_t kept = count - all.flat;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < kept; ++k)
+        sums[k] = sum += sums[k];
+    result->area = sum;
     result->largest = all.largest;
     result->largestEdges = all.largestEdges;
     result->low = all.low;
     result->high = all.high;
-    result->cumulative = cumulativeOf(areas);
+    if (!(sum > 0.0)) return result;
+    result->cumulative.resize(kept);
+    forEachPart(workers, kept, kTrianglesAtOnce,
+                [&](std::size_t begin, std::size_t end)
+                {
+                    for (std::size_t k = begin; k < end; ++k)
+                        result->cumulative[k] = static_cast<float>(sums[k] / sum);
+                });
+    result->cumulative.back() = 1.0f;
     return result;
 }
 
@@ -148,16 +153,25 @@ float EmissiveMesh::largest() const
     return sumAbs(glm::max(glm::abs(low), glm::abs(high))) + edges;
 }
 
-EmissiveMesh::Triangle EmissiveMesh::triangleOf(uint32_t primitive) const
+void EmissiveMesh::keepTriangles()
+{
+    if (areas->mesh->triangles.size() >= kLeastLargeMesh) return;
+    triangles.reserve(size());
+    for (std::size_t k = 0; k < size(); ++k)
+        triangles.push_back(computedTriangle(k));
+}
+
+EmissiveMesh::Triangle EmissiveMesh::computedTriangle(std::size_t index) const
 {
     const Mesh& mesh = *areas->mesh;
-    const Corners corners = cornersOf(mesh, place, primitive);
+    const uint32_t primitive =
+        areas->primitives.empty() ? static_cast<uint32_t>(index) : areas->primitives[index];
+    const MeshCorners corners = cornersOf(mesh, place, primitive);
     Triangle triangle;
     triangle.a = corners.a;
     triangle.ab = corners.ab;
     triangle.ac = corners.ac;
     triangle.primitive = primitive;
-    triangle.area = static_cast<float>(areaOf(corners));
     const SharedArray<Vec2>& uvs = uvsOfSet(mesh, uvSet);
     if (uvs.empty()) return triangle;
     const UVec3& t = mesh.triangles[primitive];

@@ -32,6 +32,7 @@ struct EmissiveAreas
     std::shared_ptr<const Mesh> mesh;
     MeshPlace place;                  ///< where the triangles were measured
     std::vector<uint32_t> primitives; ///< the triangles that have an area; empty: all of them
+    std::vector<uint32_t> indices;    ///< by triangle: its place among those; empty: its number
     std::vector<float> cumulative;    ///< running share of the area; the last is 1
     double area = 0.0;                ///< of all triangles
     float largest = 0.0f;             ///< largest sum of coordinates of a corner and two edges
@@ -39,7 +40,17 @@ struct EmissiveAreas
     Vec3 low{0.0f}, high{0.0f};       ///< box around the corners
 
     std::size_t size() const { return cumulative.size(); }
+
+    /// Returns the index of a triangle of the mesh; kInvalid: it has no area.
+    uint32_t indexOf(uint32_t primitive) const
+    {
+        return indices.empty() ? primitive : indices[primitive];
+    }
 };
+
+/// A mesh of at least so many triangles is large: its triangles are computed each time that they
+/// are asked for, and it may have a light tree of its own.
+constexpr std::size_t kLeastLargeMesh = 1024;
 
 /// Returns the areas of a mesh's triangles at a place. workers: may be null.
 std::shared_ptr<const EmissiveAreas> emissiveAreas(const std::shared_ptr<const Mesh>& mesh,
@@ -52,20 +63,23 @@ float uniformScale(const Mat3& linear);
 /// Sets a box to the one around it at another place.
 void placeBox(const Affine& place, Vec3& low, Vec3& high);
 
-/// Holds an emitting mesh at its place. Triangles are computed when they are asked for.
+/// Holds an emitting mesh at its place.
 struct EmissiveMesh
 {
     struct Triangle
     {
         Vec3 a{0.0f}, ab{0.0f}, ac{0.0f};    ///< engine space
         Vec2 ua{0.0f}, uab{0.0f}, uac{0.0f}; ///< of emissionUvSet
-        float area = 0.0f;
-        uint32_t primitive = 0; ///< triangle of the mesh
+        uint32_t primitive = 0;              ///< triangle of the mesh
     };
 
     std::shared_ptr<const EmissiveAreas> areas; ///< of the mesh at its place, or in its own space
     MeshPlace place;
-    uint32_t uvSet = 0; ///< emissionUvSet of the material
+    uint32_t uvSet = 0;              ///< emissionUvSet of the material
+    std::vector<Triangle> triangles; ///< by index; empty if the mesh is large
+
+    /// Computes the triangles, unless the mesh is large.
+    void keepTriangles();
 
     std::size_t size() const { return areas->size(); }
 
@@ -82,12 +96,17 @@ struct EmissiveMesh
     /// Returns the triangle of an index below size().
     Triangle triangle(std::size_t index) const
     {
-        return triangleOf(areas->primitives.empty() ? static_cast<uint32_t>(index)
-                                                    : areas->primitives[index]);
+        return triangles.empty() ? computedTriangle(index) : triangles[index];
     }
 
-    /// Returns a triangle of the mesh.
-    Triangle triangleOf(uint32_t primitive) const;
+private:
+    Triangle computedTriangle(std::size_t index) const;
 };
+
+/// Returns the area of a triangle with these edges [length^2].
+inline double triangleArea(Vec3 ab, Vec3 ac)
+{
+    return 0.5 * glm::length(glm::cross(Vec3d(ab), Vec3d(ac)));
+}
 
 } // namespace osgRayTrace::engine

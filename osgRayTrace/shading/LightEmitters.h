@@ -9,6 +9,9 @@
 #include "osgRayTrace/shading/LightBounds.h"
 #include "osgRayTrace/shading/RectangleLight.h"
 
+#include <functional>
+#include <vector>
+
 namespace osgRayTrace::engine
 {
 
@@ -59,10 +62,6 @@ OSGRAYTRACE_INLINE RectangleLight rectangleLight(const LightEmitter& e)
 /// and those so far away that squares of distances are no floats have samples of their own.
 bool isInTree(const Light& light);
 
-/// Returns a triangle of a light's mesh. textured: radiance is the mean of the triangle.
-LightEmitter triangleEmitter(const EmissiveMesh::Triangle& t, uint32_t light, Vec3 radiance,
-                             bool textured);
-
 /// What the triangles of a mesh shine.
 struct MeshRadiance
 {
@@ -82,17 +81,55 @@ struct MeshRadiance
 /// Returns what the triangles of a light's mesh shine. materials: null if nothing is textured.
 MeshRadiance meshRadiance(const Scene& scene, const Light& light, const MaterialTable* materials);
 
-/// Sets the emitters of all triangles of a mesh. workers: may be null.
+/// Sets emitters[k] to that of the mesh's triangle of index indices[k] - first, for all k below
+/// count.
 void setTriangleEmitters(const Scene& scene, const EmissiveMesh& mesh, const MeshRadiance& radiance,
-                         uint32_t light, LightEmitter* emitters, const Workers* workers);
+                         uint32_t light, const uint32_t* indices, std::size_t count,
+                         std::size_t first, LightEmitter* emitters);
+
+/// Sets emitters[k] to the emitter of index indices[k], for all k below count. Thread safe.
+using EmitterSource =
+    std::function<void(const uint32_t* indices, std::size_t count, LightEmitter* emitters)>;
+
+/// Returns the emitters of all indices below count. workers: may be null.
+LightEmitters allEmitters(const EmitterSource& source, std::size_t count, const Workers* workers);
 
 /// Returns an emitter of kMesh with these bounds, of areas that shine to both sides.
 LightEmitter boundsEmitter(const LightBounds& bounds, uint32_t light);
 
-/// Returns the parts of all lights with power that isInTree, a mesh with a tree of its own as one
-/// part. materials: null if nothing is textured. workers: may be null.
-LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
-                            const MaterialTable* materials, const Workers* workers);
+/// What the emitters of a scene are made of: the parts of all lights with power that isInTree, a
+/// mesh with a tree of its own as one part. Equal sources have equal emitters.
+struct SceneEmitters
+{
+    /// Emitters of consecutive indices: the triangles of a mesh, or some of the others.
+    struct Part
+    {
+        std::size_t first = 0;                      ///< index of the first emitter
+        std::shared_ptr<const EmissiveAreas> areas; ///< null: the part is not a mesh
+        MeshRadiance radiance;
+        uint32_t light = 0;     ///< of a mesh
+        std::size_t single = 0; ///< of others: index into singles
+
+        bool operator==(const Part& o) const
+        {
+            return first == o.first && areas == o.areas && radiance == o.radiance &&
+                   light == o.light && single == o.single;
+        }
+    };
+    std::vector<Part> parts;           ///< in order
+    std::vector<LightEmitter> singles; ///< what is no triangle
+    std::vector<std::size_t> meshes;   ///< indices of those that stand for meshes, in order
+    std::size_t size = 0;              ///< how many emitters there are
+
+    bool operator==(const SceneEmitters& o) const;
+};
+
+/// Returns what the emitters of a scene are made of. materials: null if nothing is textured.
+SceneEmitters sceneEmitters(const Scene& scene, const LightTable& table,
+                            const MaterialTable* materials);
+
+/// Returns the emitters of a scene, all of which must outlive what is returned.
+EmitterSource emitterSource(const SceneEmitters& from, const Scene& scene, const LightTable& table);
 
 /// Returns bounds of the light that an emitter sends out.
 LightBounds boundsOf(const LightEmitter& emitter);

@@ -34,9 +34,6 @@ float sumAbs(Vec3 v)
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
-/// A part of this many triangles is one piece of work.
-constexpr std::size_t kTrianglesAtOnce = 4096;
-
 } // namespace
 
 LightTable::Record LightTable::parallelogram(const Light& light)
@@ -126,44 +123,27 @@ void LightTable::plantTree(const LightTable* previous, const MaterialTable* mate
                            const Workers* workers)
 {
     plantMeshTrees(previous, materials, workers);
-    const LightEmitters emitters = lightEmitters(*_scene, *this, materials, workers);
-    if (emitters.size() <= kMostWithoutTree && _placed.empty()) return;
-    const SceneLightTree* before = previous ? previous->_tree.get() : nullptr;
-    if (before && before->holds(emitters, _placed))
-        _tree = previous->_tree;
-    else
-        _tree = std::make_shared<const SceneLightTree>(emitters, _placed, before, workers);
-    for (const uint32_t i : _deltaLights)
-        if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
-    findEmitters(workers);
-}
-
-/// Records the emitters of area lights, so that paths that meet a light find its probability.
-void LightTable::findEmitters(const Workers* workers)
-{
-    std::size_t entries = 0;
+    SceneEmitters emitters = sceneEmitters(*_scene, *this, materials);
+    if (emitters.size <= kMostWithoutTree && _placed.empty()) return;
+    uint32_t index = 0;
     for (const uint32_t i : _areaLights)
     {
         Record& own = _records[_slots[i]];
-        own.emitters = static_cast<uint32_t>(entries);
-        const Light& light = _scene->lights[i];
-        if (light.kind != LightKind::Mesh)
-            ++entries;
-        else if (own.placed == kInvalid)
-            entries += _meshes[own.mesh].areas->mesh->triangles.size();
+        own.emitters = index;
+        const bool triangles = own.mesh != kInvalid && own.placed == kInvalid;
+        index += triangles ? static_cast<uint32_t>(_meshes[own.mesh].size()) : 1;
     }
-    _emitterOf.assign(entries, kInvalid);
-    const auto setPart = [this](std::size_t begin, std::size_t end)
+    for (const uint32_t i : _deltaLights)
+        if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
+    const SceneLightTree* before = previous ? previous->_tree.get() : nullptr;
+    if (before && before->holds(emitters, _placed))
     {
-        for (auto leaf = static_cast<uint32_t>(begin); leaf < end; ++leaf)
-        {
-            const LightEmitter& emitter = _tree->leaf(leaf);
-            if (emitter.isPoint() || emitter.isMesh()) continue;
-            const uint32_t triangle = emitter.flags & kTriangle ? emitter.primitive : 0;
-            _emitterOf[record(emitter.light).emitters + triangle] = _tree->firstOf(leaf);
-        }
-    };
-    forEachPart(workers, _tree->leaves(), kTrianglesAtOnce, setPart);
+        _tree = previous->_tree;
+        if (_tree->top()) _tree->top()->clearSpare();
+        return;
+    }
+    const EmitterSource source = emitterSource(emitters, *_scene, *this);
+    _tree = std::make_shared<const SceneLightTree>(emitters, source, _placed, before, workers);
 }
 
 std::vector<uint32_t> LightTable::lightsInSpace() const
@@ -188,7 +168,9 @@ uint32_t LightTable::emitterOf(uint32_t light, uint32_t primitive) const
     const Record& own = record(light);
     if (!(own.area > 0.0f)) return kInvalid;
     if (own.placed != kInvalid) return _tree->numberOf(own.placed, primitive);
-    return _emitterOf[own.emitters + (own.mesh == kInvalid ? 0 : primitive)];
+    if (own.mesh == kInvalid) return _tree->numberOfIndex(own.emitters);
+    const uint32_t index = _meshes[own.mesh].areas->indexOf(primitive);
+    return index == kInvalid ? kInvalid : _tree->numberOfIndex(own.emitters + index);
 }
 
 LightTable::Choice LightTable::chooseAreaLight(float u) const

@@ -172,7 +172,7 @@ private:
         uint32_t mesh = kInvalid;      ///< index into _meshes
         uint32_t rectangle = kInvalid; ///< index into _rectangles
         uint32_t placed = kInvalid;    ///< index into _placed: the mesh has its own tree
-        uint32_t emitters = 0;         ///< first entry of _emitterOf
+        uint32_t emitters = 0;         ///< index of the first in SceneEmitters
     };
     const Record& record(uint32_t light) const
     {
@@ -189,7 +189,6 @@ private:
                         const Workers* workers);
     void plantTree(const LightTable* previous, const MaterialTable* materials,
                    const Workers* workers);
-    void findEmitters(const Workers* workers);
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
@@ -204,7 +203,6 @@ private:
     std::vector<PlacedLightTree> _placed; ///< the meshes with trees of their own, by light
     std::shared_ptr<const SceneLightTree> _tree;
     std::vector<uint32_t> _lightsBesideTree;
-    std::vector<uint32_t> _emitterOf; ///< by light and triangle: number in the tree
 };
 
 /// Returns the share of a point light's light that is left at a distance [OpenGL21, eq. 2.2].

@@ -56,7 +56,7 @@ EmissiveMesh LightTable::meshOf(uint32_t light, const LightTable* previous, Loca
         if (!areas) areas = emissiveAreas(mesh, {}, workers);
         emissive.areas = areas;
         // Most of the triangles may be lines.
-        if (emissive.size() >= kLeastOwnTree) return emissive;
+        if (emissive.size() >= kLeastLargeMesh) return emissive;
     }
     const uint32_t before =
         previous && light < previous->_slots.size() ? previous->record(light).mesh : kInvalid;
@@ -64,6 +64,7 @@ EmissiveMesh LightTable::meshOf(uint32_t light, const LightTable* previous, Loca
     if (!emissive.areas || emissive.areas->mesh != mesh ||
         !(emissive.areas->place == emissive.place))
         emissive.areas = emissiveAreas(mesh, emissive.place, workers);
+    emissive.keepTriangles();
     return emissive;
 }
 

@@ -66,7 +66,7 @@ void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, FloatLa
         pmf[i] = 1.0f;
     }
     const auto step = _areasOnly ? descendAreas : descend;
-    while (step(_nodes.data(), p, normal, u, emitters, pmf) != 0)
+    while (step(_arrays.nodes.data(), p, normal, u, emitters, pmf) != 0)
     {
     }
     for (int i = 0; i < kLanes; ++i)

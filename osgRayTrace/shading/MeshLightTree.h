@@ -12,12 +12,10 @@
 namespace osgRayTrace::engine
 {
 
-/// A placed mesh of at least so many triangles has a tree of its own. The tree does not depend on
-/// the place of the mesh, so that a move costs as much as that of a single light.
-constexpr std::size_t kLeastOwnTree = 1024;
-
-/// Returns whether a mesh may have a tree of its own: importances are the same in its space if
-/// its place stretches all directions alike.
+/// Returns whether a mesh may have a tree of its own: it is large, a transform places it, and
+/// importances are the same in its space, as its place stretches all directions alike. The tree
+/// does not depend on the place of the mesh, so that a move costs as much as that of a single
+/// light.
 bool mayHaveOwnTree(const Mesh& mesh, const MeshPlace& place);
 
 /// A tree over the triangles of a mesh, which all instances of the mesh share that shine alike.
@@ -26,7 +24,13 @@ struct MeshLightTree
     std::shared_ptr<const EmissiveAreas> areas; ///< in the mesh's own space
     MeshRadiance radiance; ///< materials are compared alone; even: of radiance 1
     std::shared_ptr<const LightTree> tree;
-    std::vector<uint32_t> numbers; ///< by triangle of the mesh: its emitter; kInvalid: none
+
+    /// Returns the number of a triangle of the mesh; kInvalid: none.
+    uint32_t numberOf(uint32_t primitive) const
+    {
+        const uint32_t index = areas->indexOf(primitive);
+        return index == kInvalid ? kInvalid : tree->numberOf(index);
+    }
 };
 
 /// Makes the tree of a mesh. areas: of at least two triangles. previous: a tree whose shape is
@@ -45,6 +49,7 @@ struct PlacedLightTree
     Vec3 radiance{0.0f};    ///< of the light
     Affine localFromEngine; ///< of surface points that are to be lit
     Mat3 localFromNormal;   ///< of their unit normals
+    float areaScale = 1.0f; ///< area in the scene over that in the mesh's space
 
     /// Returns whether both send the same light from the same places.
     bool operator==(const PlacedLightTree& o) const

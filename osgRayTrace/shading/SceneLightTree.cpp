@@ -4,45 +4,41 @@
 #include "osgRayTrace/shading/SceneLightTree.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace osgRayTrace::engine
 {
 
-SceneLightTree::SceneLightTree(const LightEmitters& emitters, std::vector<PlacedLightTree> placed,
-                               const SceneLightTree* previous, const Workers* workers)
-    : _placed(std::move(placed)), _leaves(emitters.size()), _size(emitters.size())
+SceneLightTree::SceneLightTree(SceneEmitters emitters, const EmitterSource& source,
+                               std::vector<PlacedLightTree> placed, const SceneLightTree* previous,
+                               const Workers* workers)
+    : _emitters(std::move(emitters)),
+      _placed(std::move(placed)),
+      _leaves(_emitters.size),
+      _size(_emitters.size)
 {
     OSGRAYTRACE_ASSERT(_leaves > 0);
+    constexpr uint32_t kFirst = 0;
     if (_leaves > 1)
-        _top = LightTree::after(previous ? previous->_top : nullptr, emitters, workers);
+        _top =
+            LightTree::after(previous ? previous->_top.get() : nullptr, source, _leaves, workers);
     else
-        _only = emitters[0];
+        source(&kFirst, 1, &_only);
     if (_placed.empty()) return;
 
     _placedOf.assign(_leaves, kInvalid);
-    for (std::size_t i = 0; i < _leaves; ++i)
+    OSGRAYTRACE_ASSERT(_emitters.meshes.size() == _placed.size());
+    for (const std::size_t index : _emitters.meshes)
     {
-        if (!emitters[i].isMesh()) continue;
-        const uint32_t leaf = _top ? _top->numberOf(i) : 0;
+        const uint32_t leaf = _top ? _top->numberOf(index) : 0;
         _placedOf[leaf] = static_cast<uint32_t>(_leafOf.size());
         _leafOf.push_back(leaf);
     }
-    OSGRAYTRACE_ASSERT(_leafOf.size() == _placed.size());
     _size = 0;
     for (const uint32_t k : _placedOf)
     {
         _first.push_back(static_cast<uint32_t>(_size));
         _size += k == kInvalid ? 1 : _placed[k].own->tree->size();
     }
-}
-
-bool SceneLightTree::holds(const LightEmitters& emitters,
-                           const std::vector<PlacedLightTree>& placed) const
-{
-    if (_placed != placed || _leaves != emitters.size()) return false;
-    return _top ? _top->holds(emitters)
-                : std::memcmp(&_only, &emitters[0], sizeof(LightEmitter)) == 0;
 }
 
 uint32_t SceneLightTree::leafOfNumber(uint32_t number) const

@@ -18,10 +18,12 @@ namespace osgRayTrace::engine
 class SceneLightTree
 {
 public:
-    /// emitters: at least one; those that stand for meshes come in the order of placed. previous:
-    /// see LightTree::after; it may be null, and so may workers.
-    SceneLightTree(const LightEmitters& emitters, std::vector<PlacedLightTree> placed,
-                   const SceneLightTree* previous, const Workers* workers);
+    /// emitters: at least one; those that stand for meshes come in the order of placed. source: of
+    /// these emitters; it is not kept. previous: see LightTree::after; it may be null, and so may
+    /// workers.
+    SceneLightTree(SceneEmitters emitters, const EmitterSource& source,
+                   std::vector<PlacedLightTree> placed, const SceneLightTree* previous,
+                   const Workers* workers);
 
     /// Returns how many emitters there are; each triangle of a mesh is one.
     std::size_t size() const { return _size; }
@@ -72,21 +74,32 @@ public:
     /// Returns the number of the emitter that is a leaf, or of the first emitter below it.
     uint32_t firstOf(uint32_t leaf) const { return _placed.empty() ? leaf : _first[leaf]; }
 
+    /// Returns the number of the emitter with this index in the constructor's list, which does not
+    /// stand for a mesh.
+    uint32_t numberOfIndex(std::size_t index) const
+    {
+        return firstOf(_top ? _top->numberOf(index) : 0);
+    }
+
     /// Returns the number of a triangle of a mesh with a tree of its own; kInvalid: none.
     uint32_t numberOf(uint32_t placed, uint32_t primitive) const
     {
-        const uint32_t below = _placed[placed].own->numbers[primitive];
+        const uint32_t below = _placed[placed].own->numberOf(primitive);
         return below == kInvalid ? kInvalid : _first[_leafOf[placed]] + below;
     }
 
     /// Returns whether the tree is that of these emitters and meshes.
-    bool holds(const LightEmitters& emitters, const std::vector<PlacedLightTree>& placed) const;
+    bool holds(const SceneEmitters& emitters, const std::vector<PlacedLightTree>& placed) const
+    {
+        return _placed == placed && _emitters == emitters;
+    }
 
 private:
     uint32_t leafOfNumber(uint32_t number) const;
     LightEmitter placedEmitter(uint32_t number) const;
     float placedPmf(Vec3 p, Vec3 normal, uint32_t number) const;
 
+    SceneEmitters _emitters;
     std::shared_ptr<const LightTree> _top;
     LightEmitter _only{}; ///< the leaf if there is no tree over the scene
     std::vector<PlacedLightTree> _placed;

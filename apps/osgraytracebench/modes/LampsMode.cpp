@@ -18,6 +18,9 @@ namespace
 
 constexpr int kWidth = 256, kHeight = 160;
 
+/// Frames in which a mesh deforms, half of them with all threads.
+constexpr int kFrames = 24;
+
 using Scenes = BenchScene (*)(int);
 
 /// Returns a scene whose first instance is placed by a transform.
@@ -56,6 +59,26 @@ void measureTable(Rows& rows)
         rows.push_back({name + what + ", all threads", secondsOf([&] { after(&workers); }) * 1e3,
                         "ms", Goal::AtMost, 50.0});
     };
+    const auto deform =
+        [&](const std::shared_ptr<const Scene>& scene, const std::shared_ptr<const Scene>& deformed)
+    {
+        const std::shared_ptr<const Scene> scenes[] = {scene, deformed};
+        std::vector<double> alone, together;
+        std::unique_ptr<const LightTable> table = build(*scene, nullptr, &workers);
+        for (int frame = 1; frame <= kFrames; ++frame)
+        {
+            endIfInterrupted();
+            const bool one = frame % 4 < 2;
+            const Workers* const threads = one ? nullptr : &workers;
+            std::unique_ptr<const LightTable> next;
+            const auto refit = [&] { next = build(*scenes[frame % 2], table.get(), threads); };
+            (one ? alone : together).push_back(one ? threadSecondsOf(refit) : secondsOf(refit));
+            table = std::move(next);
+        }
+        const std::string what = name + "all corners move in each frame";
+        rows.push_back({what + ", one thread", median(alone) * 1e3, "ms"});
+        rows.push_back({what + ", all threads", median(together) * 1e3, "ms", Goal::AtMost, 50.0});
+    };
     const auto still = shiningSphere(1000000, Vec3(0.0f));
     std::unique_ptr<const LightTable> table;
     rows.push_back({name + "table of lights, one thread",
@@ -67,6 +90,7 @@ void measureTable(Rows& rows)
     table.reset();
     edit("another edit", still, still);
     edit("all corners moved", still, shiningSphere(1000000, Vec3(1.0f)));
+    deform(still, shiningSphere(1000000, Vec3(1.0f)));
     edit("moved by a transform", placed(still, Vec3(0.0f)), placed(still, Vec3(1.0f)));
 }
 
