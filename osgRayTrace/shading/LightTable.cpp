@@ -34,6 +34,19 @@ float sumAbs(Vec3 v)
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
+/// Returns a point on a triangle, uniform by area. u, v in [0,1); offset: of the point.
+LightPoint pointOn(const EmissiveMesh::Triangle& t, float u, float v, float offset)
+{
+    // Folding the square along its diagonal keeps strata together.
+    if (u + v > 1.0f)
+    {
+        u = 1.0f - u;
+        v = 1.0f - v;
+    }
+    const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
+    return {t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, offset};
+}
+
 } // namespace
 
 LightTable::Record LightTable::parallelogram(const Light& light)
@@ -199,16 +212,9 @@ std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float
     if (from.mesh == kInvalid) return std::nullopt;
     const EmissiveMesh& mesh = _meshes[from.mesh];
     if (mesh.size() == 0) return std::nullopt;
-    const EmissiveMesh::Triangle t = mesh.triangle(pick(mesh.areas->cumulative, u));
-    // The sample is uniform on the triangle; folding the square along its diagonal keeps strata
-    // together.
-    if (u + v > 1.0f)
-    {
-        u = 1.0f - u;
-        v = 1.0f - v;
-    }
-    const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
-    return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, from.offset};
+    const std::size_t at = pick(mesh.areas->cumulative, u);
+    return mesh.triangles.empty() ? pointOn(mesh.triangle(at), u, v, from.offset)
+                                  : pointOn(mesh.triangles[at], u, v, from.offset);
 }
 
 std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u,
