@@ -3,12 +3,15 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightEmitters.h"
 
+#include "osgRayTrace/shading/LightNodes.h"
 #include "osgRayTrace/shading/LightTable.h"
 #include "osgRayTrace/shading/MaterialTable.h"
+#include "osgRayTrace/shading/MeshCorners.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace osgRayTrace::engine
 {
@@ -75,58 +78,8 @@ float texelsAcross(const Scene& scene, const Material& material,
     return std::max(longest, glm::length((triangle.uac - triangle.uab) * size));
 }
 
-LightEmitter triangleEmitter(const EmissiveMesh::Triangle& t, uint32_t light, Vec3 radiance,
-                             bool textured)
-{
-    LightEmitter emitter{};
-    set(emitter.corner, t.a);
-    set(emitter.edgeU, t.ab);
-    set(emitter.edgeV, t.ac);
-    emitter.area = t.area;
-    set(emitter.radiance, radiance);
-    emitter.light = light;
-    emitter.primitive = t.primitive;
-    emitter.flags = kTriangle | kTwoSided | (textured ? kTextured : 0);
-    return emitter;
-}
-
 /// A part of this many triangles is one piece of work.
 constexpr std::size_t kTrianglesAtOnce = 4096;
-
-/// What the emitters of a mesh are made of.
-struct EmitterSources
-{
-    const Scene& scene;
-    const LightTable& table;
-    const MaterialTable* materials;
-    const Workers* workers;
-};
-
-/// Sets the emitters of a mesh.
-void setMesh(const EmitterSources& from, uint32_t index, LightEmitter* emitters)
-{
-    const Light& light = from.scene.lights[index];
-    const uint32_t number = from.scene.instances[light.instance].material;
-    const Material& material = from.scene.materials[number];
-    const bool textured = from.materials && emitsUnevenly(material);
-    const auto& triangles = from.table.mesh(index).triangles;
-    const auto setPart = [&](std::size_t begin, std::size_t end)
-    {
-        for (std::size_t k = begin; k < end; ++k)
-        {
-            const EmissiveMesh::Triangle& t = triangles[k];
-            Vec3 radiance = light.radiance;
-            if (textured)
-            {
-                radiance = meanRadiance(*from.materials, number, emissionUvSet(material), t,
-                                        texelsAcross(from.scene, material, t));
-                radiance = glm::max(radiance, light.radiance * kLeastTextureShare);
-            }
-            emitters[k] = triangleEmitter(t, index, radiance, textured);
-        }
-    };
-    forEachPart(from.workers, triangles.size(), kTrianglesAtOnce, setPart);
-}
 
 LightEmitter parallelogram(const Light& light, uint32_t index, float area)
 {
@@ -188,6 +141,52 @@ LightBounds pointBounds(const LightEmitter& emitter)
     return bounds;
 }
 
+/// Sets all but the triangle's number.
+OSGRAYTRACE_INLINE void setTriangle(LightEmitter& emitter, const MeshCorners& t, Vec3 radiance,
+                                    uint32_t light)
+{
+    set(emitter.corner, t.a);
+    set(emitter.edgeU, t.ab);
+    set(emitter.edgeV, t.ac);
+    emitter.area = static_cast<float>(triangleArea(t.ab, t.ac));
+    set(emitter.radiance, radiance);
+    emitter.light = light;
+    emitter.flags = kTriangle | kTwoSided;
+}
+
+/// Returns the emitter of a mesh's triangle.
+LightEmitter triangleEmitter(const Scene& scene, const EmissiveMesh& mesh,
+                             const MeshRadiance& radiance, std::size_t index, uint32_t light)
+{
+    const EmissiveMesh::Triangle t = mesh.triangle(index);
+    Vec3 shines = radiance.light;
+    if (!radiance.isEven())
+    {
+        const Material& material = scene.materials[radiance.material];
+        shines = meanRadiance(*radiance.materials, radiance.material, radiance.uvSet, t,
+                              texelsAcross(scene, material, t));
+        shines = glm::max(shines, radiance.light * kLeastTextureShare);
+    }
+    LightEmitter emitter;
+    setTriangle(emitter, {t.a, t.ab, t.ac}, shines, light);
+    emitter.primitive = t.primitive;
+    emitter.flags |= radiance.isEven() ? 0 : kTextured;
+    return emitter;
+}
+
+/// Returns what boundsEmitter has stored.
+LightBounds meshBounds(const LightEmitter& emitter)
+{
+    LightBounds bounds;
+    bounds.low = vectorOf(emitter.corner);
+    bounds.high = bounds.low + vectorOf(emitter.edgeU);
+    bounds.axis = vectorOf(emitter.edgeV);
+    bounds.cosCone = emitter.radiance[0];
+    bounds.intensity = emitter.area;
+    bounds.twoSided = true;
+    return bounds;
+}
+
 } // namespace
 
 bool isInTree(const Light& light)
@@ -206,52 +205,133 @@ bool isInTree(const Light& light)
     return false;
 }
 
-LightEmitters lightEmitters(const Scene& scene, const LightTable& table,
-                            const MaterialTable* materials, const Workers* workers)
+MeshRadiance meshRadiance(const Scene& scene, const Light& light, const MaterialTable* materials)
 {
-    std::size_t count = table.areaLights().size();
-    for (const uint32_t index : table.areaLights())
-        if (scene.lights[index].kind == LightKind::Mesh)
-            count += table.mesh(index).triangles.size() - 1;
-    for (const uint32_t index : table.deltaLights())
-        count += isInTree(scene.lights[index]);
+    const uint32_t number = scene.instances[light.instance].material;
+    const Material& material = scene.materials[number];
+    if (!materials || !emitsUnevenly(material)) return {nullptr, 0, 0, light.radiance};
+    return {materials, number, emissionUvSet(material), light.radiance};
+}
+
+void setTriangleEmitters(const Scene& scene, const EmissiveMesh& mesh, const MeshRadiance& radiance,
+                         uint32_t light, const uint32_t* indices, std::size_t count,
+                         std::size_t first, LightEmitter* emitters)
+{
+    if (!radiance.isEven())
+    {
+        for (std::size_t k = 0; k < count; ++k)
+            emitters[k] = triangleEmitter(scene, mesh, radiance, indices[k] - first, light);
+        return;
+    }
+    const EmissiveAreas& areas = *mesh.areas;
+    const uint32_t* const primitives = areas.primitives.empty() ? nullptr : areas.primitives.data();
+    for (std::size_t k = 0; k < count; ++k)
+    {
+        const auto index = static_cast<uint32_t>(indices[k] - first);
+        const uint32_t primitive = primitives ? primitives[index] : index;
+        setTriangle(emitters[k], cornersOf(*areas.mesh, mesh.place, primitive), radiance.light,
+                    light);
+        emitters[k].primitive = primitive;
+    }
+}
+
+LightEmitters allEmitters(const EmitterSource& source, std::size_t count, const Workers* workers)
+{
     LightEmitters emitters(count);
-    std::size_t at = 0;
+    forEachPart(workers, count, kTrianglesAtOnce,
+                [&](std::size_t begin, std::size_t end)
+                {
+                    std::vector<uint32_t> indices(end - begin);
+                    std::iota(indices.begin(), indices.end(), static_cast<uint32_t>(begin));
+                    source(indices.data(), indices.size(), emitters.data() + begin);
+                });
+    return emitters;
+}
+
+LightEmitter boundsEmitter(const LightBounds& bounds, uint32_t light)
+{
+    LightEmitter emitter{};
+    set(emitter.corner, bounds.low);
+    set(emitter.edgeU, bounds.high - bounds.low);
+    set(emitter.edgeV, bounds.axis);
+    emitter.area = bounds.intensity;
+    emitter.radiance[0] = bounds.cosCone;
+    emitter.light = light;
+    emitter.primitive = kInvalid;
+    emitter.flags = kMesh | kTwoSided;
+    return emitter;
+}
+
+bool SceneEmitters::operator==(const SceneEmitters& o) const
+{
+    return parts == o.parts && singles.size() == o.singles.size() &&
+           std::equal(singles.begin(), singles.end(), o.singles.begin(),
+                      [](const LightEmitter& a, const LightEmitter& b)
+                      { return std::memcmp(&a, &b, sizeof a) == 0; });
+}
+
+SceneEmitters sceneEmitters(const Scene& scene, const LightTable& table,
+                            const MaterialTable* materials)
+{
+    SceneEmitters all;
+    const auto addSingle = [&](const LightEmitter& emitter)
+    {
+        if (all.parts.empty() || all.parts.back().areas)
+            all.parts.push_back({all.size, nullptr, {}, 0, all.singles.size()});
+        all.singles.push_back(emitter);
+        if (emitter.isMesh()) all.meshes.push_back(all.size);
+        ++all.size;
+    };
     for (const uint32_t index : table.areaLights())
     {
         const Light& light = scene.lights[index];
-        if (light.kind == LightKind::Mesh)
-        {
-            setMesh({scene, table, materials, workers}, index, emitters.data() + at);
-            at += table.mesh(index).triangles.size();
-        }
+        if (light.kind == LightKind::Parallelogram)
+            addSingle(parallelogram(light, index, table.area(index)));
+        else if (const PlacedLightTree* own = table.ownTree(index))
+            addSingle(meshEmitter(*own));
         else
-            emitters[at++] = parallelogram(light, index, table.area(index));
+        {
+            const EmissiveMesh& mesh = table.mesh(index);
+            all.parts.push_back(
+                {all.size, mesh.areas, meshRadiance(scene, light, materials), index, 0});
+            all.size += mesh.size();
+        }
     }
     for (const uint32_t index : table.deltaLights())
-        if (isInTree(scene.lights[index])) emitters[at++] = point(scene.lights[index], index);
-    return emitters;
+        if (isInTree(scene.lights[index])) addSingle(point(scene.lights[index], index));
+    return all;
+}
+
+EmitterSource emitterSource(const SceneEmitters& from, const Scene& scene, const LightTable& table)
+{
+    return [&](const uint32_t* indices, std::size_t count, LightEmitter* emitters)
+    {
+        for (std::size_t k = 0; k < count;)
+        {
+            const std::size_t index = indices[k];
+            const auto next = std::upper_bound(from.parts.begin(), from.parts.end(), index,
+                                               [](std::size_t i, const SceneEmitters::Part& p)
+                                               { return i < p.first; });
+            const SceneEmitters::Part& part = *(next - 1);
+            const std::size_t end = next == from.parts.end() ? from.size : next->first;
+            const std::size_t begin = k;
+            while (k < count && indices[k] >= part.first && indices[k] < end)
+                ++k;
+            if (part.areas)
+                setTriangleEmitters(scene, table.mesh(part.light), part.radiance, part.light,
+                                    indices + begin, k - begin, part.first, emitters + begin);
+            else
+                for (std::size_t i = begin; i < k; ++i)
+                    emitters[i] = from.singles[part.single + (indices[i] - part.first)];
+        }
+    };
 }
 
 LightBounds boundsOf(const LightEmitter& emitter)
 {
     if (emitter.isPoint()) return pointBounds(emitter);
-    const Vec3 corner = vectorOf(emitter.corner), u = vectorOf(emitter.edgeU),
-               v = vectorOf(emitter.edgeV);
-    const Vec3 far = emitter.flags & kTriangle ? corner + u : corner + u + v;
-    LightBounds bounds;
-    bounds.low = glm::min(glm::min(corner, corner + u), glm::min(corner + v, far));
-    bounds.high = glm::max(glm::max(corner, corner + u), glm::max(corner + v, far));
-    const Vec3 perpendicular = glm::cross(u, v);
-    const float length = glm::length(perpendicular);
-    const bool plane = length > 1e-30f && length < 1e30f;
-    if (plane)
-        bounds.axis = perpendicular / length;
-    else
-        bounds.cosCone = -1.0f;
-    bounds.intensity = luminance(vectorOf(emitter.radiance)) * emitter.area;
-    bounds.twoSided = (emitter.flags & kTwoSided) != 0;
-    return bounds;
+    if (emitter.isMesh()) return meshBounds(emitter);
+    return areaBounds(emitter);
 }
 
 } // namespace osgRayTrace::engine

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightTable.h"
 
+#include "osgRayTrace/shading/RunningShares.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,60 +34,17 @@ float sumAbs(Vec3 v)
     return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
 }
 
-/// Returns the index of the entry of a cumulative distribution that u in [0,1) falls into, and
-/// rescales u within the entry.
-std::size_t pick(const std::vector<float>& cumulative, float& u)
+/// Returns a point on a triangle, uniform by area. u, v in [0,1); offset: of the point.
+LightPoint pointOn(const EmissiveMesh::Triangle& t, float u, float v, float offset)
 {
-    const auto at = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
-    const auto index = static_cast<std::size_t>(at - cumulative.begin());
-    const float low = index ? cumulative[index - 1] : 0.0f;
-    const float width = cumulative[index] - low;
-    u = width > 0.0f ? std::min((u - low) / width, kOneMinusEpsilon) : 0.0f;
-    return index;
-}
-
-/// Returns running sums, computed in double and scaled to end at exactly 1; empty if all weights
-/// are 0.
-std::vector<float> cumulativeOf(const std::vector<double>& weights)
-{
-    double total = 0.0;
-    for (const double w : weights)
-        total += w;
-    if (!(total > 0.0)) return {};
-    std::vector<float> cumulative;
-    cumulative.reserve(weights.size());
-    double sum = 0.0;
-    for (const double w : weights)
-        cumulative.push_back(static_cast<float>((sum += w) / total));
-    cumulative.back() = 1.0f;
-    return cumulative;
-}
-
-/// A part of this many triangles is one piece of work.
-constexpr std::size_t kTrianglesAtOnce = 4096;
-
-/// Sets a triangle of a mesh, and returns its area.
-double setTriangle(const Mesh& mesh, const SharedArray<Vec2>& uvs, const Instance& instance,
-                   std::size_t number, EmissiveMesh::Triangle& triangle)
-{
-    const UVec3& t = mesh.triangles[number];
-    Vec3 p[3] = {mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]};
-    if (instance.placed)
-        for (Vec3& q : p)
-            q = transformPoint(instance.engineFromLocal, q);
-    triangle.a = p[0];
-    triangle.ab = p[1] - p[0];
-    triangle.ac = p[2] - p[0];
-    triangle.primitive = static_cast<uint32_t>(number);
-    if (!uvs.empty())
+    // Folding the square along its diagonal keeps strata together.
+    if (u + v > 1.0f)
     {
-        triangle.ua = uvs[t.x];
-        triangle.uab = uvs[t.y] - triangle.ua;
-        triangle.uac = uvs[t.z] - triangle.ua;
+        u = 1.0f - u;
+        v = 1.0f - v;
     }
-    const double area = 0.5 * glm::length(glm::cross(Vec3d(triangle.ab), Vec3d(triangle.ac)));
-    triangle.area = static_cast<float>(area);
-    return area;
+    const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
+    return {t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, offset};
 }
 
 } // namespace
@@ -108,6 +67,10 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
     : _scene(&scene), _slots(scene.lights.size(), 0), _records(1)
 {
     std::vector<double> powers;
+    LocalAreas shared;
+    if (previous)
+        for (const PlacedLightTree& placed : previous->_placed)
+            shared.emplace(placed.own->areas->mesh.get(), placed.own->areas);
     for (uint32_t i = 0; i < scene.lights.size(); ++i)
     {
         const Light& light = scene.lights[i];
@@ -132,7 +95,11 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
         if (light.kind == LightKind::Parallelogram)
             record = parallelogram(light);
         else
-            mesh = meshOf(scene, light, record, workers);
+        {
+            mesh = meshOf(i, previous, shared, workers);
+            record.area = static_cast<float>(mesh.area());
+            record.offset = kLightOffsetScale * mesh.largest();
+        }
         const double power = double(luminance(light.radiance)) * record.area *
                              (light.twoSided || light.kind == LightKind::Mesh ? 2.0 : 1.0);
         if (!(power > 0.0) || !std::isfinite(power)) continue;
@@ -164,55 +131,32 @@ LightTable::LightTable(const Scene& scene, const LightTable* previous,
     _deltaCumulative = cumulativeOf(deltaPowers);
 }
 
-/// Makes the tree, or takes over its shape if the emitters are as many as before and have not moved
-/// far apart.
+/// Makes the trees, or takes over those of the last snapshot or their shapes.
 void LightTable::plantTree(const LightTable* previous, const MaterialTable* materials,
                            const Workers* workers)
 {
-    constexpr double kMostSpread = 1.5; // times the spread for which the shape was made
-    const LightEmitters emitters = lightEmitters(*_scene, *this, materials, workers);
-    if (emitters.size() <= kMostWithoutTree) return;
-    const LightTree* before = previous ? previous->_tree.get() : nullptr;
-    if (before && before->holds(emitters))
-        _tree = previous->_tree;
-    else if (before && before->size() == emitters.size())
-    {
-        _tree = std::make_shared<const LightTree>(*before, emitters, workers);
-        if (_tree->spread() > kMostSpread * _tree->spreadAtBuild())
-            _tree = std::make_shared<const LightTree>(emitters, workers);
-    }
-    else
-        _tree = std::make_shared<const LightTree>(emitters, workers);
-    for (const uint32_t i : _deltaLights)
-        if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
-    findEmitters(workers);
-}
-
-/// Records the emitters of area lights, so that paths that meet a light find its probability.
-void LightTable::findEmitters(const Workers* workers)
-{
-    std::size_t entries = 0;
+    plantMeshTrees(previous, materials, workers);
+    SceneEmitters emitters = sceneEmitters(*_scene, *this, materials);
+    if (emitters.size <= kMostWithoutTree && _placed.empty()) return;
+    uint32_t index = 0;
     for (const uint32_t i : _areaLights)
     {
         Record& own = _records[_slots[i]];
-        own.emitters = static_cast<uint32_t>(entries);
-        const Light& light = _scene->lights[i];
-        entries += light.kind == LightKind::Mesh
-                       ? _scene->meshes[_scene->instances[light.instance].mesh]->triangles.size()
-                       : 1;
+        own.emitters = index;
+        const bool triangles = own.mesh != kInvalid && own.placed == kInvalid;
+        index += triangles ? static_cast<uint32_t>(_meshes[own.mesh].size()) : 1;
     }
-    _emitterOf.assign(entries, kInvalid);
-    const auto setPart = [this](std::size_t begin, std::size_t end)
+    for (const uint32_t i : _deltaLights)
+        if (!isInTree(_scene->lights[i])) _lightsBesideTree.push_back(i);
+    const SceneLightTree* before = previous ? previous->_tree.get() : nullptr;
+    if (before && before->holds(emitters, _placed))
     {
-        for (auto number = static_cast<uint32_t>(begin); number < end; ++number)
-        {
-            const LightEmitter& emitter = _tree->emitter(number);
-            if (emitter.isPoint()) continue;
-            const uint32_t triangle = emitter.flags & kTriangle ? emitter.primitive : 0;
-            _emitterOf[record(emitter.light).emitters + triangle] = number;
-        }
-    };
-    forEachPart(workers, _tree->size(), kTrianglesAtOnce, setPart);
+        _tree = previous->_tree;
+        if (_tree->top()) _tree->top()->clearSpare();
+        return;
+    }
+    const EmitterSource source = emitterSource(emitters, *_scene, *this);
+    _tree = std::make_shared<const SceneLightTree>(emitters, source, _placed, before, workers);
 }
 
 std::vector<uint32_t> LightTable::lightsInSpace() const
@@ -225,8 +169,8 @@ std::vector<uint32_t> LightTable::lightsInSpace() const
         if (!listed[light]) lights.push_back(light);
         listed[light] = true;
     };
-    for (uint32_t number = 0; _tree && number < _tree->size(); ++number)
-        add(_tree->emitter(number).light);
+    for (uint32_t leaf = 0; _tree && leaf < _tree->leaves(); ++leaf)
+        add(_tree->leaf(leaf).light);
     for (uint32_t light = 0; light < _scene->lights.size(); ++light)
         add(light);
     return lights;
@@ -236,43 +180,10 @@ uint32_t LightTable::emitterOf(uint32_t light, uint32_t primitive) const
 {
     const Record& own = record(light);
     if (!(own.area > 0.0f)) return kInvalid;
-    return _emitterOf[own.emitters + (own.mesh == kInvalid ? 0 : primitive)];
-}
-
-EmissiveMesh LightTable::meshOf(const Scene& scene, const Light& light, Record& record,
-                                const Workers* workers)
-{
-    const Instance& instance = scene.instances[light.instance];
-    const Mesh& mesh = *scene.meshes[instance.mesh];
-    const SharedArray<Vec2>& uvs =
-        uvsOfSet(mesh, emissionUvSet(scene.materials[instance.material]));
-    EmissiveMesh emissive;
-    emissive.triangles.resize(mesh.triangles.size());
-    std::vector<double> areas(mesh.triangles.size());
-    forEachPart(workers, mesh.triangles.size(), kTrianglesAtOnce,
-                [&](std::size_t begin, std::size_t end)
-                {
-                    for (std::size_t k = begin; k < end; ++k)
-                        areas[k] = setTriangle(mesh, uvs, instance, k, emissive.triangles[k]);
-                });
-    std::size_t kept = 0;
-    double total = 0.0;
-    float largest = 0.0f;
-    for (std::size_t k = 0; k < areas.size(); ++k)
-    {
-        if (!(areas[k] > 0.0)) continue;
-        if (kept != k) emissive.triangles[kept] = emissive.triangles[k];
-        const EmissiveMesh::Triangle& t = emissive.triangles[kept];
-        largest = std::max(largest, sumAbs(t.a) + sumAbs(t.ab) + sumAbs(t.ac));
-        total += areas[k];
-        areas[kept++] = areas[k];
-    }
-    emissive.triangles.resize(kept);
-    areas.resize(kept);
-    emissive.cumulative = cumulativeOf(areas);
-    record.area = static_cast<float>(total);
-    record.offset = kLightOffsetScale * largest;
-    return emissive;
+    if (own.placed != kInvalid) return _tree->numberOf(own.placed, primitive);
+    if (own.mesh == kInvalid) return _tree->numberOfIndex(own.emitters);
+    const uint32_t index = _meshes[own.mesh].areas->indexOf(primitive);
+    return index == kInvalid ? kInvalid : _tree->numberOfIndex(own.emitters + index);
 }
 
 LightTable::Choice LightTable::chooseAreaLight(float u) const
@@ -300,17 +211,10 @@ std::optional<LightPoint> LightTable::samplePoint(uint32_t index, float u, float
 
     if (from.mesh == kInvalid) return std::nullopt;
     const EmissiveMesh& mesh = _meshes[from.mesh];
-    if (mesh.cumulative.empty()) return std::nullopt;
-    const EmissiveMesh::Triangle& t = mesh.triangles[pick(mesh.cumulative, u)];
-    // The sample is uniform on the triangle; folding the square along its diagonal keeps strata
-    // together.
-    if (u + v > 1.0f)
-    {
-        u = 1.0f - u;
-        v = 1.0f - v;
-    }
-    const Vec3 normal(glm::normalize(glm::cross(Vec3d(t.ab), Vec3d(t.ac))));
-    return LightPoint{t.a + u * t.ab + v * t.ac, normal, t.ua + u * t.uab + v * t.uac, from.offset};
+    if (mesh.size() == 0) return std::nullopt;
+    const std::size_t at = pick(mesh.areas->cumulative, u);
+    return mesh.triangles.empty() ? pointOn(mesh.triangle(at), u, v, from.offset)
+                                  : pointOn(mesh.triangles[at], u, v, from.offset);
 }
 
 std::optional<AreaLightSample> LightTable::sampleArea(uint32_t index, Vec3 p, float u,

@@ -4,12 +4,13 @@
 
 #include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/scene/Scene.h"
-#include "osgRayTrace/shading/LightTree.h"
 #include "osgRayTrace/shading/PlacedEnvironment.h"
 #include "osgRayTrace/shading/RectangleLight.h"
+#include "osgRayTrace/shading/SceneLightTree.h"
 
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -46,20 +47,6 @@ struct DeltaLightSample
     float attenuation = 0.0f; ///< distance and spot terms [OpenGL21, eq. 2.2, 2.3]
 };
 
-/// Holds an emitting mesh as a distribution over its triangles, by area.
-struct EmissiveMesh
-{
-    struct Triangle
-    {
-        Vec3 a{0.0f}, ab{0.0f}, ac{0.0f};    ///< engine space
-        Vec2 ua{0.0f}, uab{0.0f}, uac{0.0f}; ///< of emissionUvSet
-        float area = 0.0f;
-        uint32_t primitive = 0; ///< triangle of the mesh
-    };
-    std::vector<Triangle> triangles;
-    std::vector<float> cumulative; ///< running share of the area; the last is 1
-};
-
 /// Up to this number of emitters there is no tree, and all point lights are sampled, as OpenGL
 /// does.
 constexpr std::size_t kMostWithoutTree = 8;
@@ -74,9 +61,9 @@ class LightTable
 {
 public:
     /// Builds the table. previous: table of the last snapshot, whose tables of the environment and
-    /// whose tree are taken over if possible; or null. materials: for what textures emit; null if
-    /// nothing is textured.
-    /// workers: threads that build the table; null: the calling thread does.
+    /// of meshes and whose trees are taken over if possible; or null. materials: for what textures
+    /// emit; null if nothing is textured. workers: threads that build the table; null: the calling
+    /// thread does.
     explicit LightTable(const Scene& scene, const LightTable* previous = nullptr,
                         const MaterialTable* materials = nullptr, const Workers* workers = nullptr);
 
@@ -85,7 +72,7 @@ public:
 
     /// Returns the tree over the scene's emitters; null if they are so few that each may be
     /// sampled.
-    const LightTree* tree() const { return _tree.get(); }
+    const SceneLightTree* tree() const { return _tree.get(); }
 
     /// Returns the delta lights that are not in the tree; all of them without a tree.
     const std::vector<uint32_t>& lightsBesideTree() const
@@ -104,6 +91,13 @@ public:
 
     /// Returns the triangles of an emitting mesh.
     const EmissiveMesh& mesh(uint32_t light) const { return _meshes[record(light).mesh]; }
+
+    /// Returns an emitting mesh with its own tree; null if the light is none.
+    const PlacedLightTree* ownTree(uint32_t light) const
+    {
+        const uint32_t number = record(light).placed;
+        return number == kInvalid ? nullptr : &_placed[number];
+    }
 
     /// Returns the environment, which may be black; null without one.
     const PlacedEnvironment* environment() const { return _environment.get(); }
@@ -177,7 +171,8 @@ private:
         Vec3 normal{0.0f};             ///< parallelograms only
         uint32_t mesh = kInvalid;      ///< index into _meshes
         uint32_t rectangle = kInvalid; ///< index into _rectangles
-        uint32_t emitters = 0;         ///< first entry of _emitterOf
+        uint32_t placed = kInvalid;    ///< index into _placed: the mesh has its own tree
+        uint32_t emitters = 0;         ///< index of the first in SceneEmitters
     };
     const Record& record(uint32_t light) const
     {
@@ -187,11 +182,13 @@ private:
     static Record parallelogram(const Light& light);
     std::optional<AreaLightSample> sampleAt(uint32_t index, Vec3 p, Vec3 q, Vec3 normal, Vec2 uv,
                                             bool twoSided) const;
-    static EmissiveMesh meshOf(const Scene& scene, const Light& light, Record& record,
-                               const Workers* workers);
+    using LocalAreas = std::unordered_map<const Mesh*, std::shared_ptr<const EmissiveAreas>>;
+    EmissiveMesh meshOf(uint32_t light, const LightTable* previous, LocalAreas& shared,
+                        const Workers* workers) const;
+    void plantMeshTrees(const LightTable* previous, const MaterialTable* materials,
+                        const Workers* workers);
     void plantTree(const LightTable* previous, const MaterialTable* materials,
                    const Workers* workers);
-    void findEmitters(const Workers* workers);
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;
@@ -203,9 +200,9 @@ private:
     std::vector<float> _deltaCumulative; ///< a delta light: running probability; the last is 1
     std::vector<EmissiveMesh> _meshes;   ///< for records of LightKind::Mesh
     std::vector<RectangleLight> _rectangles;
-    std::shared_ptr<const LightTree> _tree;
+    std::vector<PlacedLightTree> _placed; ///< the meshes with trees of their own, by light
+    std::shared_ptr<const SceneLightTree> _tree;
     std::vector<uint32_t> _lightsBesideTree;
-    std::vector<uint32_t> _emitterOf; ///< by light and triangle: number in the tree
 };
 
 /// Returns the share of a point light's light that is left at a distance [OpenGL21, eq. 2.2].

@@ -2,46 +2,82 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightTree.h"
 
+#include "osgRayTrace/shading/LightNodes.h"
+
 #include <algorithm>
-#include <cstring>
 
 namespace osgRayTrace::engine
 {
 
+LightArrays SpareLightArrays::take(std::size_t emitters)
+{
+    LightArrays arrays;
+    {
+        const std::lock_guard<std::mutex> lock(_mutex);
+        arrays = std::move(_arrays);
+    }
+    if (arrays.emitters.size() == emitters) return arrays;
+    return {LightEmitters(emitters), UnclearedArray<LightNode>(2 * (emitters - 1))};
+}
+
+void SpareLightArrays::give(LightArrays&& arrays)
+{
+    const std::lock_guard<std::mutex> lock(_mutex);
+    std::swap(_arrays, arrays);
+}
+
 LightTree::LightTree(const LightEmitters& emitters, const Workers* workers)
+    : _spare(std::make_shared<SpareLightArrays>())
 {
     OSGRAYTRACE_ASSERT(emitters.size() >= 2);
     _pairs = std::make_shared<const LightPairs>(lightPairs(emitters, workers));
-    setNodes(emitters, workers);
+    const auto listed = [&](const uint32_t* indices, std::size_t count, LightEmitter* to)
+    {
+        for (std::size_t k = 0; k < count; ++k)
+            to[k] = emitters[indices[k]];
+    };
+    setNodes(listed, workers);
     _spreadAtBuild = _spread;
 }
 
-LightTree::LightTree(const LightTree& shape, const LightEmitters& emitters, const Workers* workers)
-    : _pairs(shape._pairs), _spreadAtBuild(shape._spreadAtBuild)
+LightTree::LightTree(const LightTree& shape, const EmitterSource& source, const Workers* workers)
+    : _pairs(shape._pairs), _spare(shape._spare), _spreadAtBuild(shape._spreadAtBuild)
 {
-    OSGRAYTRACE_ASSERT(emitters.size() == shape.size());
-    setNodes(emitters, workers);
+    setNodes(source, workers);
+}
+
+LightTree::~LightTree()
+{
+    _spare->give(std::move(_arrays));
+}
+
+std::shared_ptr<const LightTree> LightTree::after(const LightTree* previous,
+                                                  const EmitterSource& source, std::size_t count,
+                                                  const Workers* workers)
+{
+    constexpr double kMostSpread = 1.5; // times the spread for which the shape was made
+    if (previous && previous->size() == count)
+    {
+        auto refitted = std::make_shared<const LightTree>(*previous, source, workers);
+        if (refitted->spread() <= kMostSpread * refitted->spreadAtBuild()) return refitted;
+    }
+    return std::make_shared<const LightTree>(allEmitters(source, count, workers), workers);
 }
 
 /// Puts the emitters in the order of the leaves, and joins their bounds from the leaves up. The
 /// subtrees do not depend on each other, and their sums are added in their order.
-void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
+void LightTree::setNodes(const EmitterSource& source, const Workers* workers)
 {
-    const std::size_t pairs = emitters.size() - 1;
-    _emitters = LightEmitters(emitters.size());
-    _numbers = UnclearedArray<uint32_t>(emitters.size());
-    _nodes = UnclearedArray<LightNode>(2 * pairs);
-    _parents = UnclearedArray<uint32_t>(pairs);
-    _leafNodes = UnclearedArray<uint32_t>(emitters.size());
-    _parents[0] = kInvalid;
+    _arrays = _spare->take(_pairs->order.size());
     const std::vector<LightPairs::Subtree>& subtrees = _pairs->subtrees;
     std::vector<Joined> parts(subtrees.size());
     forEachPart(workers, subtrees.size(), 1,
-                [&](std::size_t k, std::size_t) { parts[k] = setSubtree(subtrees[k], emitters); });
+                [&](std::size_t k, std::size_t) { parts[k] = setSubtree(subtrees[k], source); });
     JoinedPairs joinedPairs;
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
         joinedPairs[subtrees[k].pair] = parts[k];
+        if (subtrees[k].pair == 0) _bounds = parts[k].bounds;
         _spread += parts[k].spread;
         _areasOnly &= !parts[k].points;
         _hasRectangles |= parts[k].rectangles;
@@ -49,61 +85,48 @@ void LightTree::setNodes(const LightEmitters& emitters, const Workers* workers)
     for (std::size_t k = _pairs->top.size(); k-- > 0;)
     {
         const uint32_t pair = _pairs->top[k];
-        const Joined top = setTop(pair, emitters, joinedPairs);
+        const Joined top = setTop(pair, source, joinedPairs);
         joinedPairs[pair] = top;
+        if (pair == 0) _bounds = top.bounds;
         _spread += top.spread;
         _areasOnly &= !top.points;
         _hasRectangles |= top.rectangles;
     }
 }
 
-void LightTree::setLeaf(uint32_t number, const LightEmitters& emitters)
-{
-    const uint32_t index = _pairs->order[number];
-    _emitters[number] = emitters[index];
-    _numbers[index] = number;
-}
-
-/// Sets a node, and the way up to it from what is below.
-void LightTree::setNode(uint32_t node, const LightBounds& bounds)
-{
-    const uint32_t next = _pairs->children[node];
-    if (next & LightPairs::kLeaf)
-        _leafNodes[next & ~LightPairs::kLeaf] = node;
-    else
-        _parents[next] = node;
-    _nodes[node] = nodeOf(bounds, next);
-}
-
 LightTree::Joined LightTree::setSubtree(const LightPairs::Subtree& subtree,
-                                        const LightEmitters& emitters)
+                                        const EmitterSource& source)
 {
     Joined all;
+    source(&_pairs->order[subtree.leaf], subtree.pairs + 1, _arrays.emitters.data() + subtree.leaf);
     for (uint32_t k = 0; k <= subtree.pairs; ++k)
-    {
-        setLeaf(subtree.leaf + k, emitters);
-        all.addLeaf(_emitters[subtree.leaf + k]);
-    }
+        all.addLeaf(_arrays.emitters[subtree.leaf + k]);
     std::vector<LightBounds> pairs(subtree.pairs);
+    double spread = 0.0;
+    const uint32_t* const children = _pairs->children.data();
+    const auto boundsBelow = [&](uint32_t next)
+    {
+        if (!(next & LightPairs::kLeaf)) return pairs[next - subtree.pair];
+        const LightEmitter& emitter = _arrays.emitters[next & ~LightPairs::kLeaf];
+        return emitter.isPoint() || emitter.isMesh() ? boundsOf(emitter) : areaBounds(emitter);
+    };
     for (uint32_t k = subtree.pairs; k-- > 0;)
     {
         const uint32_t first = 2 * (subtree.pair + k);
-        LightBounds both[2];
-        for (uint32_t side = 0; side < 2; ++side)
-        {
-            const uint32_t next = _pairs->children[first + side];
-            both[side] = next & LightPairs::kLeaf ? boundsOf(_emitters[next & ~LightPairs::kLeaf])
-                                                  : pairs[next - subtree.pair];
-            setNode(first + side, both[side]);
-            all.spread += static_cast<double>(both[side].intensity) * _nodes[first + side].radius;
-        }
-        pairs[k] = joined(both[0], both[1]);
+        LightNode* const nodes = &_arrays.nodes[first];
+        const LightBounds a = boundsBelow(children[first]), b = boundsBelow(children[first + 1]);
+        setNode(nodes[0], a, children[first]);
+        setNode(nodes[1], b, children[first + 1]);
+        spread += static_cast<double>(a.intensity) * nodes[0].radius;
+        spread += static_cast<double>(b.intensity) * nodes[1].radius;
+        pairs[k] = joinedBounds(a, b);
     }
+    all.spread = spread;
     all.bounds = pairs[0];
     return all;
 }
 
-LightTree::Joined LightTree::setTop(uint32_t pair, const LightEmitters& emitters,
+LightTree::Joined LightTree::setTop(uint32_t pair, const EmitterSource& source,
                                     const JoinedPairs& below)
 {
     LightBounds both[2];
@@ -114,26 +137,26 @@ LightTree::Joined LightTree::setTop(uint32_t pair, const LightEmitters& emitters
         if (next & LightPairs::kLeaf)
         {
             const uint32_t number = next & ~LightPairs::kLeaf;
-            setLeaf(number, emitters);
-            all.addLeaf(_emitters[number]);
-            both[side] = boundsOf(_emitters[number]);
+            source(&_pairs->order[number], 1, _arrays.emitters.data() + number);
+            all.addLeaf(_arrays.emitters[number]);
+            both[side] = boundsOf(_arrays.emitters[number]);
         }
         else
             both[side] = below.at(next).bounds;
-        setNode(node, both[side]);
-        all.spread += static_cast<double>(both[side].intensity) * _nodes[node].radius;
+        _arrays.nodes[node] = nodeOf(both[side], next);
+        all.spread += static_cast<double>(both[side].intensity) * _arrays.nodes[node].radius;
     }
     all.bounds = joined(both[0], both[1]);
     return all;
 }
 
-LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float u) const
+LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float& u) const
 {
     const PlainVec3 point = plainOf(p), n = plainOf(normal);
     Choice choice{0, 1.0f};
     while (!(choice.emitter & LightPairs::kLeaf))
     {
-        const LightNode* nodes = &_nodes[2 * std::size_t(choice.emitter)];
+        const LightNode* nodes = &_arrays.nodes[2 * std::size_t(choice.emitter)];
         const float share = shareOfFirst(nodes[0], nodes[1], point, n);
         const bool first = u < share;
         const float pmf = first ? share : 1.0f - share;
@@ -148,22 +171,14 @@ LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float u) const
 float LightTree::pmf(Vec3 p, Vec3 normal, uint32_t emitter) const
 {
     float pmf = 1.0f;
-    for (uint32_t node = _leafNodes[emitter]; node != kInvalid; node = _parents[node / 2])
+    for (uint32_t node = _pairs->leafNodes[emitter]; node != kInvalid;
+         node = _pairs->parents[node / 2])
     {
-        const LightNode* nodes = &_nodes[node & ~1u];
+        const LightNode* nodes = &_arrays.nodes[node & ~1u];
         const float share = shareOfFirst(nodes[0], nodes[1], plainOf(p), plainOf(normal));
         pmf *= node & 1u ? 1.0f - share : share;
     }
     return pmf;
-}
-
-bool LightTree::holds(const LightEmitters& emitters) const
-{
-    if (emitters.size() != _emitters.size()) return false;
-    for (std::size_t i = 0; i < emitters.size(); ++i)
-        if (std::memcmp(&emitters[i], &_emitters[_numbers[i]], sizeof(LightEmitter)) != 0)
-            return false;
-    return true;
 }
 
 } // namespace osgRayTrace::engine

@@ -5,6 +5,7 @@
 #include "osgRayTrace/shading/LightEmitters.h"
 
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 #include <vector>
 
@@ -25,16 +26,44 @@ struct LightPairs
         uint32_t leaf = 0;            ///< the first of pairs + 1 leaves
     };
 
-    std::vector<uint32_t> children; ///< two for each pair; pair 0 is the root's
-    std::vector<uint32_t> order;    ///< the emitters in the order of the leaves
-    std::vector<Subtree> subtrees;  ///< disjoint ones, which threads work on at once
-    std::vector<uint32_t> top;      ///< the pairs above them, each after its parent
+    std::vector<uint32_t> children;  ///< two for each pair; pair 0 is the root's
+    std::vector<uint32_t> order;     ///< the emitters in the order of the leaves
+    std::vector<uint32_t> numbers;   ///< by emitter: its leaf
+    std::vector<uint32_t> parents;   ///< by pair: the node above it; kInvalid at the root
+    std::vector<uint32_t> leafNodes; ///< by leaf: its node
+    std::vector<Subtree> subtrees;   ///< disjoint ones, which threads work on at once
+    std::vector<uint32_t> top;       ///< the pairs above them, each after its parent
 };
 
 /// Returns a shape for at least two emitters: each pair parts the emitters of a node where the sum
 /// of power times surface times solid angle is least [Conty18, sect. 4.4]. The shape is the same
 /// for any workers, which may be null.
 LightPairs lightPairs(const LightEmitters& emitters, const Workers* workers);
+
+/// The large arrays of a LightTree.
+struct LightArrays
+{
+    LightEmitters emitters;          ///< by number
+    UnclearedArray<LightNode> nodes; ///< two for each pair
+};
+
+/// Keeps the arrays of a tree that is gone for the next tree of its shape: to clear new pages takes
+/// as long as to fill them, and a mesh may deform in each frame. Thread safe.
+class SpareLightArrays
+{
+public:
+    /// Returns arrays for this number of emitters.
+    LightArrays take(std::size_t emitters);
+
+    void give(LightArrays&& arrays); ///< Keeps these, and frees what was kept.
+
+    /// Frees what is kept.
+    void clear() { give({}); }
+
+private:
+    std::mutex _mutex;
+    LightArrays _arrays;
+};
 
 /// A binary tree over emitters, which is descended from the root: at each pair of nodes one is
 /// chosen in proportion to importance() [Conty18]. Emitters are numbered in the order of the
@@ -47,32 +76,47 @@ public:
     explicit LightTree(const LightEmitters& emitters, const Workers* workers = nullptr);
 
     /// Takes the shape of a tree over as many emitters, which have moved or shine otherwise.
-    LightTree(const LightTree& shape, const LightEmitters& emitters,
+    LightTree(const LightTree& shape, const EmitterSource& source,
               const Workers* workers = nullptr);
+    ~LightTree();
 
-    std::size_t size() const { return _emitters.size(); }
-    const LightEmitter& emitter(uint32_t number) const { return _emitters[number]; }
-    const LightEmitter* emitters() const { return _emitters.data(); }
+    /// Returns a tree over count emitters, at least two: one of previous's shape if that has as
+    /// many, and they have not moved far apart; else a tree with a shape of its own. previous,
+    /// workers: may be null.
+    static std::shared_ptr<const LightTree> after(const LightTree* previous,
+                                                  const EmitterSource& source, std::size_t count,
+                                                  const Workers* workers);
+
+    std::size_t size() const { return _arrays.emitters.size(); }
+
+    /// Frees the memory that is kept for the next tree of this shape.
+    void clearSpare() const { _spare->clear(); }
+
+    /// Returns bounds of all its lights.
+    const LightBounds& bounds() const { return _bounds; }
+    const LightEmitter& emitter(uint32_t number) const { return _arrays.emitters[number]; }
+    const LightEmitter* emitters() const { return _arrays.emitters.data(); }
 
     /// Returns whether some emitter may be sampled by solid angle.
     bool hasRectangles() const { return _hasRectangles; }
 
     /// Returns the number of the emitter that had this index in the constructor's list.
-    uint32_t numberOf(std::size_t index) const { return _numbers[index]; }
+    uint32_t numberOf(std::size_t index) const { return _pairs->numbers[index]; }
 
     struct Choice
     {
         uint32_t emitter = kInvalid;
         float pmf = 0.0f;
     };
-    /// Chooses an emitter for a surface point. normal: see importance(). u in [0,1).
-    Choice choose(Vec3 p, Vec3 normal, float u) const;
+    /// Chooses an emitter for a surface point. normal: see importance(). u in [0,1), which is set
+    /// to what is left of it to choose more.
+    Choice choose(Vec3 p, Vec3 normal, float& u) const;
 
     /// Returns the probability with which choose() takes an emitter; the sum over all is 1.
     float pmf(Vec3 p, Vec3 normal, uint32_t emitter) const;
 
-    /// Chooses an emitter in each lane.
-    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, const FloatLanes& u,
+    /// Chooses an emitter in each lane, and sets u to what is left of it.
+    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, FloatLanes& u,
                      UintLanes& emitters, FloatLanes& pmf) const;
 
     /// Returns the sum over all nodes of intensity times radius, which grows as lights that were
@@ -81,9 +125,6 @@ public:
 
     /// Returns the spread of the tree for which the shape was made.
     double spreadAtBuild() const { return _spreadAtBuild; }
-
-    /// Returns whether the tree is that of these emitters, in the constructor's order.
-    bool holds(const LightEmitters& emitters) const;
 
 private:
     struct Joined ///< what is known of a pair that is set
@@ -101,21 +142,17 @@ private:
     };
     using JoinedPairs = std::unordered_map<uint32_t, Joined>;
 
-    void setNodes(const LightEmitters& emitters, const Workers* workers);
-    Joined setSubtree(const LightPairs::Subtree& subtree, const LightEmitters& emitters);
-    Joined setTop(uint32_t pair, const LightEmitters& emitters, const JoinedPairs& below);
-    void setLeaf(uint32_t number, const LightEmitters& emitters);
-    void setNode(uint32_t node, const LightBounds& bounds);
+    void setNodes(const EmitterSource& source, const Workers* workers);
+    Joined setSubtree(const LightPairs::Subtree& subtree, const EmitterSource& source);
+    Joined setTop(uint32_t pair, const EmitterSource& source, const JoinedPairs& below);
 
     std::shared_ptr<const LightPairs> _pairs;
-    LightEmitters _emitters; ///< by number
-    UnclearedArray<uint32_t> _numbers;
-    UnclearedArray<LightNode> _nodes;    ///< two for each pair
-    UnclearedArray<uint32_t> _parents;   ///< by pair: the node above it; kInvalid at the root
-    UnclearedArray<uint32_t> _leafNodes; ///< by emitter: its node
-    bool _areasOnly = true;              ///< no emitter is a point light
-    bool _hasRectangles = false;         ///< some emitter is a rectangle
+    std::shared_ptr<SpareLightArrays> _spare; ///< of all trees of this shape
+    LightArrays _arrays;
+    bool _areasOnly = true;      ///< no emitter is a point light
+    bool _hasRectangles = false; ///< some emitter is a rectangle
     double _spread = 0.0, _spreadAtBuild = 0.0;
+    LightBounds _bounds;
 };
 
 /// Returns the probability of the first node of a pair.

@@ -101,6 +101,9 @@ public:
                     });
         _pairs.children.resize(2 * emitters.size() - 2);
         _pairs.order.resize(emitters.size());
+        _pairs.numbers.resize(emitters.size());
+        _pairs.parents.resize(emitters.size() - 1, kInvalid);
+        _pairs.leafNodes.resize(emitters.size());
     }
 
     /// Parts large nodes level by level, the nodes of a level at once, then all that is below at
@@ -130,7 +133,10 @@ public:
         forEachPart(_workers, small.size(), 1,
                     [&](std::size_t k, std::size_t) { addBelow(small[k]); });
         for (std::size_t i = 0; i < _emitters.size(); ++i)
+        {
             _pairs.order[i] = _emitters[i].index;
+            _pairs.numbers[_emitters[i].index] = static_cast<uint32_t>(i);
+        }
         return std::move(_pairs);
     }
 
@@ -154,10 +160,11 @@ private:
         for (std::size_t side = 0; side < 2; ++side)
         {
             const Node& child = children[side];
-            _pairs.children[2 * std::size_t(node.pair) + side] =
-                child.end - child.begin == 1
-                    ? LightPairs::kLeaf | static_cast<uint32_t>(child.begin)
-                    : child.pair;
+            const uint32_t number = 2 * node.pair + static_cast<uint32_t>(side);
+            const auto leaf = static_cast<uint32_t>(child.begin);
+            const bool isLeaf = child.end - child.begin == 1;
+            _pairs.children[number] = isLeaf ? LightPairs::kLeaf | leaf : child.pair;
+            (isLeaf ? _pairs.leafNodes[leaf] : _pairs.parents[child.pair]) = number;
         }
         return children;
     }

@@ -57,17 +57,16 @@ LaneMask descendAreas(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lane
 
 } // namespace
 
-void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, const FloatLanes& u,
+void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, FloatLanes& u,
                             UintLanes& emitters, FloatLanes& pmf) const
 {
-    FloatLanes left = u;
     for (int i = 0; i < kLanes; ++i)
     {
         emitters[i] = 0;
         pmf[i] = 1.0f;
     }
     const auto step = _areasOnly ? descendAreas : descend;
-    while (step(_nodes.data(), p, normal, left, emitters, pmf) != 0)
+    while (step(_arrays.nodes.data(), p, normal, u, emitters, pmf) != 0)
     {
     }
     for (int i = 0; i < kLanes; ++i)

@@ -26,8 +26,28 @@ constexpr float kSide = 0.2f;
 enum class Emitter
 {
     Parallelogram,
-    Mesh, ///< one mesh of two triangles a lamp, all of them in one light
+    Mesh,       ///< one mesh of two triangles a lamp, all of them in one light
+    PlacedMesh, ///< the same with 32 triangles a lamp, which a transform has turned and enlarged
 };
+
+/// Adds a square of n x n quads.
+void addGrid(Vec3 corner, Vec3 u, Vec3 v, uint32_t n, std::vector<Vec3>& positions,
+             std::vector<UVec3>& triangles)
+{
+    const auto first = static_cast<uint32_t>(positions.size());
+    const auto step = 1.0f / static_cast<float>(n);
+    for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i <= n; ++i)
+            positions.push_back(corner + u * (step * static_cast<float>(i)) +
+                                v * (step * static_cast<float>(j)));
+    for (uint32_t j = 0; j < n; ++j)
+        for (uint32_t i = 0; i < n; ++i)
+        {
+            const uint32_t a = first + j * (n + 1) + i, b = a + n + 1;
+            triangles.emplace_back(a, a + 1, b + 1);
+            triangles.emplace_back(a, b + 1, b);
+        }
+}
 
 SceneBuilder under(const std::vector<Vec3>& corners, Emitter emitter)
 {
@@ -39,14 +59,21 @@ SceneBuilder under(const std::vector<Vec3>& corners, Emitter emitter)
     for (const Vec3& corner : corners)
     {
         if (emitter == Emitter::Parallelogram) builder.addQuadLight(corner, u, v, Vec3(1.0f));
-        const auto first = static_cast<uint32_t>(positions.size());
-        for (const Vec3& p : {corner, corner + u, corner + u + v, corner + v})
-            positions.push_back(p);
-        triangles.emplace_back(first, first + 1, first + 2);
-        triangles.emplace_back(first, first + 2, first + 3);
+        addGrid(corner, u, v, emitter == Emitter::PlacedMesh ? 4 : 1, positions, triangles);
     }
-    if (emitter == Emitter::Mesh)
-        builder.addEmissive(newMesh(positions, triangles), lamp(Vec3(1.0f)));
+    if (emitter == Emitter::Parallelogram) return builder;
+    Affine place;
+    if (emitter == Emitter::PlacedMesh)
+    {
+        place.linear = Mat3(glm::rotate(glm::mat4(1.0f), 0.5f, Vec3(0.6f, 0.0f, 0.8f))) * 2.0f;
+        place.translation = Vec3(1, 2, 3);
+        const Mat3 inverse = glm::inverse(place.linear);
+        for (Vec3& p : positions)
+            p = inverse * (p - place.translation);
+    }
+    const uint32_t number = builder.addEmissive(newMesh(positions, triangles), lamp(Vec3(1.0f)));
+    builder.scene->instances[number].placed = emitter == Emitter::PlacedMesh;
+    builder.scene->instances[number].engineFromLocal = place;
     return builder;
 }
 
@@ -106,14 +133,16 @@ TEST_CASE("light tree: many lamps give the sum of Lambert's formulas", "[integra
     const std::vector<Vec3> lamps = apart(corners(400, 1));
     REQUIRE(lamps.size() > 100);
     const double exact = 0.5 * irradianceOf(lamps) / M_PI;
-    for (const Emitter emitter : {Emitter::Parallelogram, Emitter::Mesh})
+    for (const Emitter emitter : {Emitter::Parallelogram, Emitter::Mesh, Emitter::PlacedMesh})
     {
         const auto traced = under(lamps, emitter).build();
         REQUIRE(traced->lights().tree());
+        CHECK(traced->lights().tree()->placed().size() == (emitter == Emitter::PlacedMesh));
         // The estimators of light sampling alone and with the light that paths meet by chance.
         for (const IntegratorKind kind : {IntegratorKind::Whitted, IntegratorKind::Path})
         {
-            if (kind == IntegratorKind::Whitted && emitter == Emitter::Mesh) continue; // one light
+            if (kind == IntegratorKind::Whitted && emitter != Emitter::Parallelogram)
+                continue; // one light
             const Estimate radiance = measure(traced, originView(), optionsOf(kind, 1), 32);
             CAPTURE(int(emitter), int(kind), radiance.mean(), radiance.standardError(), exact);
             CHECK(radiance.agrees(exact, 2e-6));
@@ -182,8 +211,10 @@ TEST_CASE("light tree: paths agree with photons below a hundred lamps", "[integr
 
 TEST_CASE("light tree: a mesh whose texture shines in one corner", "[integrators][statistics]")
 {
-    // A ceiling of 20 x 20 quads with a texture of 20 x 20 texels, of which one shines.
-    constexpr int kCells = 20;
+    // A ceiling of 24 x 24 quads with a texture of 24 x 24 texels, of which one shines. A transform
+    // gives it a tree of its own.
+    const bool placed = GENERATE(false, true);
+    constexpr int kCells = 24;
     constexpr float kSize = 0.5f; // of a quad
     constexpr float kHeight = 2.0f;
     SceneBuilder builder;
@@ -200,7 +231,8 @@ TEST_CASE("light tree: a mesh whose texture shines in one corner", "[integrators
     for (int j = 0; j <= kCells; ++j)
         for (int i = 0; i <= kCells; ++i)
         {
-            positions.emplace_back(kSize * float(i), kSize * float(j), kHeight);
+            positions.push_back(Vec3(kSize * float(i), kSize * float(j), kHeight) *
+                                (placed ? 0.5f : 1.0f));
             uvs.emplace_back(float(i) / kCells, float(j) / kCells);
         }
     for (uint32_t j = 0; j < kCells; ++j)
@@ -214,10 +246,13 @@ TEST_CASE("light tree: a mesh whose texture shines in one corner", "[integrators
     mesh->uvs = std::move(uvs);
     Material shining = lamp(Vec3(3.0f));
     shining.emissionTexture = 0;
-    builder.addEmissive(mesh, shining);
+    Instance& instance = builder.scene->instances[builder.addEmissive(mesh, shining)];
+    instance.placed = placed;
+    instance.engineFromLocal.linear = Mat3(2.0f);
     const auto traced = builder.build();
     const LightTable& table = traced->lights();
     REQUIRE(table.tree());
+    CHECK((table.ownTree(0) != nullptr) == placed);
     float corner = 0.0f, least = 1.0f;
     for (uint32_t triangle = 0; triangle < 2 * kCells * kCells; ++triangle)
     {

@@ -5,6 +5,8 @@
 #include "tests/Statistics.h"
 
 #include <cstring>
+#include <functional>
+#include <memory>
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -50,18 +52,20 @@ std::vector<Asked> randomPoints(int count)
 }
 
 /// Returns how many of the emitters, ways and choices of two trees differ in any bit.
-int differences(const LightTree& a, const LightTree& b, const std::vector<Asked>& points)
+int differences(const SceneLightTree& a, const SceneLightTree& b, const std::vector<Asked>& points)
 {
-    int different = a.spread() != b.spread() || a.spreadAtBuild() != b.spreadAtBuild();
+    int different = a.top()->spread() != b.top()->spread() ||
+                    a.top()->spreadAtBuild() != b.top()->spreadAtBuild();
     for (uint32_t k = 0; k < a.size(); ++k)
     {
-        different += std::memcmp(&a.emitter(k), &b.emitter(k), sizeof(LightEmitter)) != 0;
-        different += a.numberOf(k) != b.numberOf(k);
+        const LightEmitter x = a.emitter(k), y = b.emitter(k);
+        different += std::memcmp(&x, &y, sizeof(LightEmitter)) != 0;
+        different += a.top()->numberOf(k) != b.top()->numberOf(k);
     }
     for (const Asked& at : points)
     {
-        const LightTree::Choice x = a.choose(at.p, at.normal, at.u),
-                                y = b.choose(at.p, at.normal, at.u);
+        const SceneLightTree::Choice x = a.choose(at.p, at.normal, at.u),
+                                     y = b.choose(at.p, at.normal, at.u);
         different += x.emitter != y.emitter || x.pmf != y.pmf;
         for (uint32_t k = 0; k < a.size(); k += 97)
             different += a.pmf(at.p, at.normal, k) != b.pmf(at.p, at.normal, k);
@@ -90,11 +94,57 @@ TEST_CASE("light tree: the same for any number of threads, built and refitted", 
         int wrong = 0;
         for (uint32_t k = 0; k < table.tree()->size(); ++k)
         {
-            const LightEmitter& e = refitted.tree()->emitter(k);
+            const LightEmitter e = refitted.tree()->emitter(k);
             wrong += !e.isPoint() && refitted.emitterOf(e.light, e.primitive) != k;
         }
         CHECK(wrong == 0);
     }
+}
+
+TEST_CASE("light tree: it is kept if something else changes, and not if a light does", "[shading]")
+{
+    const SceneBuilder builder = shining(Vec3(0.0f));
+    const LightTable table(*builder.scene);
+    const auto keeps = [&](const std::function<void(Scene&)>& change)
+    {
+        Scene edited = *builder.scene;
+        change(edited);
+        return LightTable(edited, &table).tree() == table.tree();
+    };
+    CHECK(keeps([](Scene&) {}));
+    CHECK(keeps([](Scene& scene) { scene.materials.emplace_back(); }));
+    CHECK_FALSE(keeps([](Scene& scene) { scene.lights[0].radiance *= 2.0f; }));
+    CHECK_FALSE(keeps([](Scene& scene) { scene.lights[2].corner.z += 1.0f; }));
+    CHECK_FALSE(keeps([](Scene& scene) { scene.lights[3].position.z += 1.0f; }));
+    CHECK_FALSE(keeps([](Scene& scene) { std::swap(scene.meshes[0], scene.meshes[1]); }));
+    CHECK_FALSE(keeps([](Scene& scene) { scene.instances[1].placed = true; }));
+    CHECK_FALSE(keeps([](Scene& scene) { scene.lights.pop_back(); }));
+}
+
+TEST_CASE("light tree: a mesh that deforms in each frame uses its memory again", "[shading]")
+{
+    const SceneBuilder scenes[] = {shining(Vec3(0.0f)), shining(Vec3(0.2f, 0.1f, 0.0f))};
+    const std::vector<Asked> points = randomPoints(20);
+    const LightTable first(*scenes[0].scene), second(*scenes[1].scene, &first);
+    const LightTable* const expected[] = {&first, &second};
+    auto now = std::make_unique<const LightTable>(*scenes[0].scene);
+    for (int frame = 1; frame < 6; ++frame)
+    {
+        now = std::make_unique<const LightTable>(*scenes[frame % 2].scene, now.get());
+        CHECK(differences(*now->tree(), *expected[frame % 2]->tree(), points) == 0);
+    }
+
+    SpareLightArrays spare;
+    LightArrays arrays = spare.take(10);
+    CHECK(arrays.nodes.size() == 18);
+    const LightEmitter* const kept = arrays.emitters.data();
+    spare.give(std::move(arrays));
+    const LightEmitters beside(10); // where the arrays were if they had been freed
+    arrays = spare.take(10);
+    CHECK(beside.data() != kept);
+    CHECK(arrays.emitters.data() == kept);
+    spare.give(std::move(arrays));
+    CHECK(spare.take(11).emitters.size() == 11);
 }
 
 TEST_CASE("light tree: the probabilities of a large tree sum to 1", "[shading]")
@@ -102,7 +152,7 @@ TEST_CASE("light tree: the probabilities of a large tree sum to 1", "[shading]")
     const SceneBuilder builder = shining(Vec3(0.0f));
     const Workers workers(2);
     const LightTable table(*builder.scene, nullptr, nullptr, &workers);
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     for (const Asked& at : randomPoints(20))
     {
         double sum = 0.0;

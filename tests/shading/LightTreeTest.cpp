@@ -139,7 +139,7 @@ bool reaches(const LightEmitter& e, const Light& light, const Receiver& at, Vec2
 
 /// Returns the exact variance of f / pmf for an emitter that a tree chooses: sum f^2 / pmf - S^2.
 /// It is -1 if an emitter with f > 0 is never chosen.
-double varianceOf(const LightTree& tree, const Receiver& at, const std::vector<double>& f)
+double varianceOf(const SceneLightTree& tree, const Receiver& at, const std::vector<double>& f)
 {
     double sum = 0.0, squares = 0.0;
     for (uint32_t e = 0; e < tree.size(); ++e)
@@ -153,7 +153,7 @@ double varianceOf(const LightTree& tree, const Receiver& at, const std::vector<d
 }
 
 /// Returns the irradiances of the lamps in the order of a tree's emitters.
-std::vector<double> irradiances(const LightTree& tree, const std::vector<Lamp>& lamps,
+std::vector<double> irradiances(const SceneLightTree& tree, const std::vector<Lamp>& lamps,
                                 const Receiver& at)
 {
     std::vector<double> f;
@@ -163,13 +163,13 @@ std::vector<double> irradiances(const LightTree& tree, const std::vector<Lamp>& 
 }
 
 /// Holds what many choices of a tree estimate.
-Estimate estimateOf(const LightTree& tree, const Receiver& at, const std::vector<double>& f,
+Estimate estimateOf(const SceneLightTree& tree, const Receiver& at, const std::vector<double>& f,
                     int draws, Uniform& random)
 {
     Estimate estimate;
     for (int i = 0; i < draws; ++i)
     {
-        const LightTree::Choice choice = tree.choose(at.p, at.normal, random());
+        const SceneLightTree::Choice choice = tree.choose(at.p, at.normal, random());
         estimate.add(f[choice.emitter] / choice.pmf);
     }
     return estimate;
@@ -187,7 +187,7 @@ TEST_CASE("light tree: probabilities sum to 1 at 100,000 random points", "[shadi
     const SceneBuilder builder = mixedScene();
     const LightTable table(*builder.scene);
     REQUIRE(table.tree());
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     REQUIRE(tree.size() == 60 + 40 + 6 * 12 * 2 - 2 * 12);
     Uniform random(1);
     double worst = 0.0;
@@ -200,7 +200,7 @@ TEST_CASE("light tree: probabilities sum to 1 at 100,000 random points", "[shadi
         for (uint32_t k = 0; k < tree.size() && all; ++k)
             sum += tree.pmf(at.p, at.normal, k);
         if (all) worst = std::max(worst, std::abs(sum - 1.0));
-        const LightTree::Choice choice = tree.choose(at.p, at.normal, random());
+        const SceneLightTree::Choice choice = tree.choose(at.p, at.normal, random());
         REQUIRE(choice.emitter < tree.size());
         REQUIRE(choice.pmf > 0.0f);
         REQUIRE(choice.pmf == Approx(tree.pmf(at.p, at.normal, choice.emitter)).epsilon(1e-5));
@@ -216,7 +216,7 @@ TEST_CASE("light tree: choices have the probabilities that they claim", "[shadin
     const double significance = sidak(0.01, 2 * kPoints);
     const SceneBuilder builder = mixedScene();
     const LightTable table(*builder.scene);
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     Uniform random(5);
     for (int k = 0; k < kPoints; ++k)
     {
@@ -255,7 +255,7 @@ TEST_CASE("light tree: no light that reaches a point has probability 0", "[shadi
 {
     const SceneBuilder builder = mixedScene();
     const LightTable table(*builder.scene);
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     Uniform random(6);
     int lit = 0, dark = 0;
     for (int i = 0; i < 3000; ++i)
@@ -263,7 +263,7 @@ TEST_CASE("light tree: no light that reaches a point has probability 0", "[shadi
         const Receiver at = receiver(random);
         for (uint32_t e = 0; e < tree.size(); ++e)
         {
-            const LightEmitter& emitter = tree.emitter(e);
+            const LightEmitter emitter = tree.emitter(e);
             bool any = false;
             for (const Vec2 uv : {Vec2(0.01f, 0.01f), Vec2(0.98f, 0.01f), Vec2(0.01f, 0.98f),
                                   Vec2(0.49f, 0.49f), Vec2(0.98f, 0.98f)})
@@ -285,7 +285,7 @@ TEST_CASE("light tree: the variance in an open plane is that of its probabilitie
     const std::vector<Lamp> hanging = lamps(1000, true, 7);
     const SceneBuilder builder = sceneOf(hanging);
     const LightTable table(*builder.scene);
-    const LightTree& tree = *table.tree();
+    const SceneLightTree& tree = *table.tree();
     REQUIRE(tree.size() == 1000);
     Uniform random(8);
     for (const Receiver& at : kFloor)
@@ -391,7 +391,7 @@ TEST_CASE("light tree: point lights that turn, brighten or fade otherwise have o
     const SceneBuilder turned = spots();
     changes[0](turned.scene->lights[10]);
     const LightTable now(*turned.scene, &table);
-    CHECK(now.tree()->pmf(below.p, below.normal, now.tree()->numberOf(10)) == Approx(1.0));
+    CHECK(now.tree()->pmf(below.p, below.normal, now.tree()->top()->numberOf(10)) == Approx(1.0));
 }
 
 TEST_CASE("light tree: bounds of two hold all that either holds", "[shading]")

@@ -18,7 +18,19 @@ namespace
 
 constexpr int kWidth = 256, kHeight = 160;
 
+/// Frames in which a mesh deforms, half of them with all threads.
+constexpr int kFrames = 24;
+
 using Scenes = BenchScene (*)(int);
+
+/// Returns a scene whose first instance is placed by a transform.
+std::shared_ptr<const Scene> placed(const std::shared_ptr<const Scene>& scene, Vec3 place)
+{
+    auto moved = std::make_shared<Scene>(*scene);
+    moved->instances[0].placed = true;
+    moved->instances[0].engineFromLocal.translation = place;
+    return moved;
+}
 
 void measurePair(const std::string& name, Scenes scenes, double goal, Rows& rows)
 {
@@ -27,27 +39,59 @@ void measurePair(const std::string& name, Scenes scenes, double goal, Rows& rows
     rows.push_back({name + ": time of 1,000 lamps / 10", many / few, "", Goal::AtMost, 1.5});
 }
 
+/// Measures the table of lights of a million triangles, and what it takes after an edit: once with
+/// no threads to help, in time of the processor, and once with all of them.
 void measureTable(Rows& rows)
 {
-    const auto scene = shiningSphere(1000000, Vec3(0.0f)),
-               moved = shiningSphere(1000000, Vec3(1.0f));
-    std::unique_ptr<const LightTable> table;
-    const auto build = [&](const Scene& of, const Workers* workers)
-    { table = std::make_unique<LightTable>(of, nullptr, nullptr, workers); };
     const std::string name = "million triangles: ";
-    rows.push_back({name + "table of lights, one thread",
-                    threadSecondsOf([&] { build(*scene, nullptr); }), "s", Goal::AtMost, 1.0});
-    std::unique_ptr<const LightTable> refitted;
-    const auto refit = [&](const Workers* workers)
-    { refitted = std::make_unique<LightTable>(*moved, table.get(), nullptr, workers); };
-    rows.push_back({name + "table after a move, one thread",
-                    threadSecondsOf([&] { refit(nullptr); }) * 1e3, "ms"});
     const Workers workers;
-    rows.push_back(
-        {name + "table of lights, all threads", secondsOf([&] { build(*scene, &workers); }), "s"});
-    refitted.reset();
-    rows.push_back({name + "table after a move, all threads",
-                    secondsOf([&] { refit(&workers); }) * 1e3, "ms", Goal::AtMost, 50.0});
+    const auto build = [](const Scene& scene, const LightTable* before, const Workers* threads)
+    { return std::make_unique<const LightTable>(scene, before, nullptr, threads); };
+    const auto edit = [&](const std::string& what, const std::shared_ptr<const Scene>& scene,
+                          const std::shared_ptr<const Scene>& edited)
+    {
+        std::unique_ptr<const LightTable> table = build(*scene, nullptr, &workers), next;
+        const auto after = [&](const Workers* threads)
+        { next = build(*edited, table.get(), threads); };
+        rows.push_back(
+            {name + what + ", one thread", threadSecondsOf([&] { after(nullptr); }) * 1e3, "ms"});
+        next.reset();
+        rows.push_back({name + what + ", all threads", secondsOf([&] { after(&workers); }) * 1e3,
+                        "ms", Goal::AtMost, 50.0});
+    };
+    const auto deform =
+        [&](const std::shared_ptr<const Scene>& scene, const std::shared_ptr<const Scene>& deformed)
+    {
+        const std::shared_ptr<const Scene> scenes[] = {scene, deformed};
+        std::vector<double> alone, together;
+        std::unique_ptr<const LightTable> table = build(*scene, nullptr, &workers);
+        for (int frame = 1; frame <= kFrames; ++frame)
+        {
+            endIfInterrupted();
+            const bool one = frame % 4 < 2;
+            const Workers* const threads = one ? nullptr : &workers;
+            std::unique_ptr<const LightTable> next;
+            const auto refit = [&] { next = build(*scenes[frame % 2], table.get(), threads); };
+            (one ? alone : together).push_back(one ? threadSecondsOf(refit) : secondsOf(refit));
+            table = std::move(next);
+        }
+        const std::string what = name + "all corners move in each frame";
+        rows.push_back({what + ", one thread", median(alone) * 1e3, "ms"});
+        rows.push_back({what + ", all threads", median(together) * 1e3, "ms", Goal::AtMost, 50.0});
+    };
+    const auto still = shiningSphere(1000000, Vec3(0.0f));
+    std::unique_ptr<const LightTable> table;
+    rows.push_back({name + "table of lights, one thread",
+                    threadSecondsOf([&] { table = build(*still, nullptr, nullptr); }), "s",
+                    Goal::AtMost, 1.0});
+    table.reset();
+    rows.push_back({name + "table of lights, all threads",
+                    secondsOf([&] { table = build(*still, nullptr, &workers); }), "s"});
+    table.reset();
+    edit("another edit", still, still);
+    edit("all corners moved", still, shiningSphere(1000000, Vec3(1.0f)));
+    deform(still, shiningSphere(1000000, Vec3(1.0f)));
+    edit("moved by a transform", placed(still, Vec3(0.0f)), placed(still, Vec3(1.0f)));
 }
 
 } // namespace

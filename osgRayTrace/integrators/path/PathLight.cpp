@@ -58,7 +58,7 @@ float pdfOfLight(const LightTable& table, uint32_t light, int number, const Path
     if (emitter == kInvalid) return 0.0f;
     const float pmf = table.tree()->pmf(laneOf(block.vertices.position, i),
                                         laneOf(block.vertices.normal, i), emitter);
-    const LightEmitter& chosen = table.tree()->emitter(emitter);
+    const LightEmitter chosen = table.tree()->emitter(emitter);
     const auto picks = static_cast<float>(treePicks(number - 1));
     const float angle =
         chosen.flags & kRectangle ? sampledAngle(rectangleLight(chosen), plainOf(from)) : 0.0f;

@@ -308,7 +308,7 @@ void Segments::addArea()
 /// Adds one emitter of the LightTree, chosen for some point of each stretch.
 void Segments::addTree()
 {
-    const LightTree& tree = *_table.tree();
+    const SceneLightTree& tree = *_table.tree();
     begin();
     LaneMask unshadowed = 0;
     for (const int i : lanesIn(_segments.lanes))
@@ -326,7 +326,7 @@ void Segments::addTree()
                 : tree.choose(pivot.point, Vec3(0.0f), std::min(u, kOneMinusEpsilon)).emitter;
         const float pmf =
             kEvenShare / count + (1.0f - kEvenShare) * tree.pmf(pivot.point, Vec3(0.0f), number);
-        const LightEmitter& emitter = tree.emitter(number);
+        const LightEmitter emitter = tree.emitter(number);
         const Light& light = (*_context.lights)[emitter.light];
         bool lit = false;
         if (emitter.isPoint())

@@ -159,21 +159,22 @@ TreePoints treePoints(const SurfaceLanes& surface, const Vec3Lanes& normal, Lane
 void treeLightLanes(const PassContext& context, const TreePoints& points, const FloatLanes& choice,
                     float picks, const LightReceivers& receivers, TreeSamples& samples)
 {
-    const LightTree& tree = *context.traced->lights().tree();
+    const SceneLightTree& tree = *context.traced->lights().tree();
     tree.chooseLanes(points.position, points.normal, choice, samples.emitters, samples.pmf);
+    SceneLightTree::Gathered gathered;
+    tree.gather(samples.emitters, gathered);
     for (int i = 0; i < kLanes; ++i)
         samples.pmf[i] *= picks;
     LightLanes& lights = samples.lights;
     const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
-    const LaneMask lit = emitterLanes(tree.emitters(), samples.emitters, samples.pmf, receivers,
-                                      transmissive, lights);
-    const LaneMask near = tree.hasRectangles()
-                              ? nearEmitters(tree.emitters(), samples.emitters, receivers.surface)
-                              : 0;
+    const LaneMask lit =
+        emitterLanes(gathered.emitters, gathered.at, samples.pmf, receivers, transmissive, lights);
+    const LaneMask near =
+        tree.hasRectangles() ? nearEmitters(gathered.emitters, gathered.at, receivers.surface) : 0;
     lights.lit = lights.tinted = samples.points = 0;
     for (const int i : lanesIn(receivers.active))
     {
-        const LightEmitter& emitter = tree.emitter(samples.emitters[i]);
+        const LightEmitter& emitter = gathered.of(i);
         if (emitter.isPoint())
         {
             samples.points |= 1u << i;
@@ -199,7 +200,7 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
 
 LaneMask visibleLanes(const PassContext& context, TreeSamples& samples, TileCounts& counts)
 {
-    const LightTree& tree = *context.traced->lights().tree();
+    const SceneLightTree& tree = *context.traced->lights().tree();
     LaneMask unshadowed = 0;
     for (const int i : lanesIn(samples.points & samples.lights.lit))
     {

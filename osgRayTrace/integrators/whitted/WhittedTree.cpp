@@ -57,7 +57,7 @@ void addTreeSample(WhittedTile& tile, ShadingBlock& block, LaneMask lanes, TreeS
     countRays(tile, block, lights.lit);
     for (const int i : lanesIn(reached))
     {
-        const LightEmitter& emitter = context.traced->lights().tree()->emitter(samples.emitters[i]);
+        const LightEmitter emitter = context.traced->lights().tree()->emitter(samples.emitters[i]);
         const float weight = (visible >> i) & 1u ? lights.weight[i] * samples.pmf[i] : 0.0f;
         addFixedFunctionLight(block, lights, (*context.lights)[emitter.light], i,
                               1.0f / samples.pmf[i], weight);
