@@ -160,14 +160,23 @@ Vec3 Scatterers::sample(Vec3 direction, float choice, float u, float v) const
 class GridRay::Pieces
 {
 public:
-    /// glow: tentative collisions at which emission is collected where nothing is extinguished.
-    Pieces(const GridRay& ray, float begin, float end, bool glow = false)
+    /// Which pieces get additional tentative collisions.
+    enum class Extra
+    {
+        None,
+        Glowing, ///< those that emit: emission is collected where nothing is extinguished, too
+        All,
+    };
+
+    Pieces(const GridRay& ray, float begin, float end, Extra wanted = Extra::None)
         : _ray(ray), _begin(begin), _last(end)
     {
         // A few collisions along the way, whose number does not matter for the mean.
-        constexpr float kGlowDepth = 4.0f;
-        const float extra = glow && end > begin ? kGlowDepth / (end - begin) : 0.0f;
-        if (ray._around && ray._around->emits) _aroundExtra = extra;
+        constexpr float kExtraDepth = 4.0f;
+        const bool all = wanted == Extra::All;
+        const float extra =
+            wanted != Extra::None && end > begin ? kExtraDepth / (end - begin) : 0.0f;
+        if (ray._around && (all || ray._around->emits)) _aroundExtra = extra;
         for (int i = 0; i < ray._count; ++i)
         {
             const auto k = static_cast<std::size_t>(i);
@@ -176,7 +185,7 @@ public:
             part.end = std::min(part.end, end);
             if (part.isEmpty()) continue;
             const GridRecord& grid = (*ray._table)[ray._spans[k].grid];
-            _extras[_count] = grid.emission != Vec3(0.0f) ? extra : 0.0f;
+            _extras[_count] = all || grid.emission != Vec3(0.0f) ? extra : 0.0f;
             _factors[_count] = ray._extinctions[k];
             _walks[_count++].begin(grid, ray._origin, ray._direction, part);
         }
@@ -314,7 +323,8 @@ Scatterers GridRay::scatterersAt(float distance) const
     return scatterers;
 }
 
-GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
+GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers,
+                           std::vector<TentativeCollision>* tentativeOnes) const
 {
     GridFlight result;
     float u = numbers.next();
@@ -322,7 +332,8 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
     Vec3 share(1.0f); // F, times a common factor
     float depth = -std::log1p(-u);
     int tentative = 0;
-    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    const Pieces::Extra extra = tentativeOnes ? Pieces::Extra::All : Pieces::Extra::Glowing;
+    for (Pieces piece(*this, _extent.begin, _extent.end, extra); piece.advance();)
     {
         float t = piece.begin();
         while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))
@@ -337,6 +348,7 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
             const Coefficients here = at(t, true);
             const float norm = glm::dot(pmf, share);
             result.emitted += share * here.emission / (piece.most * norm);
+            if (tentativeOnes) tentativeOnes->push_back({t, share / (piece.most * norm)});
             const Vec3 real = glm::min(here.sigmaT / piece.most, 1.0f);
             if (numbers.next() < real[channel])
             {
@@ -362,7 +374,7 @@ GridWay GridRay::way(NumberStream& numbers) const
     GridWay result;
     float depth = -std::log1p(-numbers.next());
     int tentative = 0;
-    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    for (Pieces piece(*this, _extent.begin, _extent.end, Pieces::Extra::Glowing); piece.advance();)
     {
         float t = piece.begin();
         while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -78,6 +79,14 @@ struct GridFlight
     Vec3 emitted{0.0f};    ///< radiance that was emitted on the way
 };
 
+/// A tentative collision of a flight. The sum of weight f(distance) over those of a flight is an
+/// estimate of the integral of transmittance f over the ray.
+struct TentativeCollision
+{
+    float distance = 0.0f; ///< along the ray
+    Vec3 weight{0.0f};     ///< [length]
+};
+
 /// What is left of light on a way, and what was added to it.
 struct GridWay
 {
@@ -114,7 +123,10 @@ public:
     const GridTable& table() const { return *_table; }
 
     /// Returns where light that travels along the ray collides. pmf: probabilities of the channels.
-    GridFlight flight(Vec3 pmf, NumberStream& numbers) const;
+    /// tentative: gets the tentative collisions, in order, the real one as the last, and some of
+    /// them also where next to nothing collides; may be null.
+    GridFlight flight(Vec3 pmf, NumberStream& numbers,
+                      std::vector<TentativeCollision>* tentative = nullptr) const;
 
     /// Returns what is left of light at the end, and what was emitted, without an end by chance
     /// [ratio tracking: Novak14, eq. 8].

@@ -107,7 +107,9 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     for (const Volume& volume : scene.volumes)
     {
         traits.volumes = traits.media = true;
-        traits.scattering |= volume.law == VolumeLaw::Density && volume.medium.scatters();
+        const bool density = volume.law == VolumeLaw::Density; // others glow in their colours
+        traits.scattering |= density && volume.medium.scatters();
+        traits.glowing |= !density || volume.medium.emits();
     }
     for (const Light& light : scene.lights)
     {

@@ -4,6 +4,8 @@
 
 #include "tests/integrators/MediaScenes.h"
 
+#include "osgRayTrace/sampling/Hash.h"
+
 #include <functional>
 
 namespace osgRayTrace::engine::test
@@ -22,6 +24,19 @@ newVolumeImage(int width, int height, int depth, const std::function<float(int, 
             for (int x = 0; x < width; ++x)
                 image->floats.push_back(value(x, y, z));
     return image;
+}
+
+/// Returns voxels of random densities, a fifth of them above 0.
+inline std::shared_ptr<const VolumeImage> clumps(int n)
+{
+    uint32_t state = 7;
+    return newVolumeImage(n, n, n,
+                          [&state](int, int, int)
+                          {
+                              state = hash(state, 1u);
+                              const float u = unitFloat(state);
+                              return u < 0.8f ? 0.0f : (u - 0.8f) * 20.0f;
+                          });
 }
 
 /// Returns an affine map from an axis-aligned box to the unit cube.

@@ -56,19 +56,6 @@ std::shared_ptr<const VolumeImage> ramp(int n)
     return newVolumeImage(n, 3, 3, [n](int x, int, int) { return (float(x) + 0.5f) / float(n); });
 }
 
-/// Returns voxels of random densities, a fifth of them above 0.
-std::shared_ptr<const VolumeImage> clumps(int n)
-{
-    uint32_t state = 7;
-    return newVolumeImage(n, n, n,
-                          [&state](int, int, int)
-                          {
-                              state = hash(state, 1u);
-                              const float u = unitFloat(state);
-                              return u < 0.8f ? 0.0f : (u - 0.8f) * 20.0f;
-                          });
-}
-
 } // namespace
 
 TEST_CASE("volumes: light falls by Beer's law through a ramp of densities",
@@ -334,24 +321,37 @@ TEST_CASE("volumes: the same bits for any number of threads", "[integrators][vol
           IntegratorKind::Path);
 }
 
-TEST_CASE("volumes: paths take the place of photons", "[integrators][volumes]")
+TEST_CASE("volumes: photons fly through them, but do not bring their own light",
+          "[integrators][volumes]")
 {
     SceneBuilder builder = cornellBox();
     builder.scene->materials.back().transmission = 1.0f; // a caster of caustics
     builder.scene->volumes.push_back(
         densityIn({100, 100, 100}, {400, 400, 400}, clumps(24), mediumOf(0.02f, 0.9f, 0.2f)));
-    const auto traced = builder.build();
     const View view = cornellView(16, 16);
-    const auto wanted = {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics};
-    for (const IntegratorKind kind : wanted)
+    const auto indirect = {IntegratorKind::Ppm, IntegratorKind::Sppm};
+    const auto traced = builder.build();
+    for (const IntegratorKind kind : indirect)
     {
         const Picture picture = render(traced, view, optionsOf(kind), 1);
-        CHECK(picture.progress.integrator == IntegratorKind::Path);
-        CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
+        CHECK(picture.progress.integrator == kind);
+        CHECK(picture.progress.mediumNote == MediumNote::None);
     }
     const Picture picture = render(traced, view, optionsOf(IntegratorKind::Automatic), 1);
-    CHECK(picture.progress.integrator == IntegratorKind::Path);
-    CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
+    CHECK(picture.progress.integrator == IntegratorKind::PhotonCaustics);
+    CHECK(picture.progress.mediumNote == MediumNote::None);
+
+    builder.scene->volumes.back().medium.emission = Vec3(1e-3f);
+    const auto glowing = builder.build();
+    for (const IntegratorKind kind : indirect)
+    {
+        const Picture paths = render(glowing, view, optionsOf(kind), 1);
+        CHECK(paths.progress.integrator == IntegratorKind::Path);
+        CHECK(paths.progress.mediumNote == MediumNote::PathsInstead);
+    }
+    const Picture caustics = render(glowing, view, optionsOf(IntegratorKind::Automatic), 1);
+    CHECK(caustics.progress.integrator == IntegratorKind::PhotonCaustics);
+    CHECK(caustics.progress.mediumNote == MediumNote::None);
 }
 
 TEST_CASE("volumes: edits redo blocks alone, and those that serve are taken over",
