@@ -157,9 +157,10 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
 {
     if (_inputs.traced.traits().volumes)
     {
-        const GridRay grids = gridsOn(block, flights, i);
-        const bool stores = storesPoints(block, flights, i) && grids.scatters();
-        if (!grids.isEmpty() || stores) return flyGrids(block, flights, i, grids);
+        const bool stores = storesPoints(block, flights, i);
+        const GridRay grids = gridsOn(block, flights, i, stores);
+        const bool leavesPoints = stores && (grids.scatters() || grids.isReached());
+        if (!grids.isEmpty() || leavesPoints) return flyGrids(block, flights, i, grids);
     }
     const RayPart& part = flights.parts[i];
     if (part.isEmpty()) return meet(block, flights, i);

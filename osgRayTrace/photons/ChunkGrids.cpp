@@ -4,23 +4,30 @@
 // A photon is stored at all tentative collisions of its flight rather than at the real one: the sum
 // of transmittance over the majorant is an estimate of the same integral, and does not divide by a
 // density that may be next to nothing (GridRay.h). Some are added, so that thin media get points,
-// too. Look-ups multiply by what scatters at the point at which a path from the eye has collided.
+// too. Volumes end within the sphere of a look-up near their faces and where they are empty, but
+// the light that the points stand for does not: points are therefore stored around volumes as well,
+// as far as spheres reach. Look-ups multiply by what scatters at the point at which a path from the
+// eye has collided.
 #include "osgRayTrace/photons/ChunkFlights.h"
 
 #include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/photons/VolumePhotons.h"
 
 #include <algorithm>
 
 namespace osgRayTrace::engine
 {
 
-/// Returns the volumes on the stretch of a photon, and the medium around them.
-GridRay ChunkTracer::gridsOn(const PhotonPathBlock& block, const Flights& flights, int i) const
+/// Returns the volumes on the stretch of a photon, and the medium around them. stores: the photon
+/// leaves points there.
+GridRay ChunkTracer::gridsOn(const PhotonPathBlock& block, const Flights& flights, int i,
+                             bool stores) const
 {
     const RayBlock& ray = _rays.ray;
+    const float begin = flights.begin[i], end = flights.hasHit(i) ? ray.tFar[i] : kInfinity;
     GridRay grids(_inputs.traced.grids(), Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]),
-                  laneOf(block.direction, i), flights.begin[i],
-                  flights.hasHit(i) ? ray.tFar[i] : kInfinity);
+                  laneOf(block.direction, i), begin, end);
+    if (stores) grids.setReach(kWidestKernel * _inputs.emitter.scene().radius, {begin, end});
     grids.setAround(flights.media[flights.within[i]], flights.parts[i]);
     return grids;
 }
@@ -33,7 +40,7 @@ ChunkTracer::FlightEnd ChunkTracer::flyGrids(PhotonPathBlock& block, Flights& fl
     if (!(largestOf(power) > 0.0f)) return FlightEnd::Dies; // it has underflowed
     NumberStream numbers(
         hash(flightSeed(flights.bounce, flights.stretch[i], FlightGrid), block.photon[i]));
-    if (!grids.scatters() || mustArrive(flights))
+    if (!(grids.scatters() || grids.isReached()) || mustArrive(flights))
     {
         const GridWay way = grids.way(numbers);
         _chunk.cutWalks += way.cut;

@@ -39,6 +39,24 @@ inline std::shared_ptr<const VolumeImage> clumps(int n)
                           });
 }
 
+/// Returns n voxels along x with the values (i + 1/2) / n.
+inline std::shared_ptr<const VolumeImage> ramp(int n)
+{
+    return newVolumeImage(n, 3, 3, [n](int x, int, int) { return (float(x) + 0.5f) / float(n); });
+}
+
+/// The integral over x from 0 to 1 of a density of n voxels with the value (i + 1/2) / n: trapezia
+/// between the middles of voxels, with 0 beyond the image.
+inline double rampDepth(int n)
+{
+    const auto value = [n](int i) { return i < 0 || i >= n ? 0.0 : (i + 0.5) / n; };
+    double sum = 0.0;
+    for (int i = 0; i + 1 < n; ++i)
+        sum += 0.5 * (value(i) + value(i + 1)) / n;
+    // Half a cell at each face, in which the value falls to half of the outermost one.
+    return sum + 0.75 * 0.5 * (value(0) + value(n - 1)) / n;
+}
+
 /// Returns an affine map from an axis-aligned box to the unit cube.
 inline Affine cubeFromBox(Vec3 low, Vec3 high)
 {

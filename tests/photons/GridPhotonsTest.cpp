@@ -134,6 +134,47 @@ TEST_CASE("photons in volumes: the image of a light in a mirror shines in smoke"
     }
 }
 
+// The sphere of a look-up is four times as thick as the volume: what is within it must count as if
+// the volume went on.
+TEST_CASE("photons in volumes: a thin layer loses no light at its faces",
+          "[photons][statistics][volumes]")
+{
+    constexpr float kHalf = 0.05f;
+    SceneBuilder builder;
+    builder.add(quadMesh({-30, -30, -1}, {60, 0, 0}, {0, 60, 0}), mirror(Vec3(1.0f)));
+    builder.add(quadMesh({10, -0.01f, -0.01f}, {0, 0.02f, 0}, {0, 0, 0.02f}), lambert(Vec3(0.0f)));
+    builder.addLight(pointLight({5, 0, 1}, Vec3(float(1.0 / 3.14159265358979))));
+    builder.scene->volumes.push_back(
+        densityIn({-5, -5, -kHalf}, {15, 5, kHalf}, clumps(9), mediumOf(0.2f, kMirrorAlbedo)));
+    makeEven(builder.scene->volumes.back(), Vec4(1.0f, 1.0f, 1.0f, 0.5f));
+    const auto traced = builder.build();
+    // Single scattering of the light and of its image along the ray, midpoint rule.
+    constexpr double kSigma = 0.1, kSteps = 20000;
+    double both = 0.0;
+    for (int i = 0; i < int(kSteps); ++i)
+    {
+        const double t = 10.0 * (i + 0.5) / kSteps;
+        for (const double height : {1.0, 3.0})
+        {
+            const double d2 = (t - 5.0) * (t - 5.0) + height * height;
+            const double within = std::sqrt(d2) * double(kHalf) / height;
+            // The image lights the layer from below, through its lower half.
+            both += double(kMirrorAlbedo) * kSigma / (4.0 * 3.14159265358979) *
+                    std::exp(-kSigma * (t + within)) / d2 * 10.0 / kSteps;
+        }
+    }
+    for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
+    {
+        RenderOptions options = optionsOf(kind, 2);
+        options.photons = 20000;
+        options.photonRadius = 0.2f;
+        const Estimate seen = measure(traced, alongMirror(), options, 16);
+        CAPTURE(int(kind), both, seen.mean(), seen.standardError());
+        CHECK(seen.agrees(both, 0.002 * both)); // the kernel's blur is 0.1 % of the image's light
+        CHECK(seen.standardError() < 0.02 * both);
+    }
+}
+
 TEST_CASE("photons in volumes: the same bits for any number of threads", "[photons][volumes]")
 {
     for (const GridScene& scene : gridScenes())
