@@ -175,6 +175,34 @@ TEST_CASE("photons in volumes: a thin layer loses no light at its faces",
     }
 }
 
+// All light that photons do not bring, or bring twice, is missed or seen.
+TEST_CASE("photons in volumes: what does not absorb is not seen in a white sky",
+          "[photons][statistics][volumes]")
+{
+    SceneBuilder builder;
+    addSky(builder);
+    builder.add(sphereMesh({0, 0, 1.2f}, 0.5f, 32), glass(1.5f));
+    builder.add(sphereMesh({0, 1.1f, 0.2f}, 0.4f, 32), mirror(Vec3(1.0f)));
+    builder.add(boxMesh({-0.6f, -1.2f, -0.6f}, {0.6f, -0.4f, 0.4f}), lambert(Vec3(1.0f)));
+    builder.scene->volumes.push_back(
+        densityIn({-1, -1.5f, -0.8f}, {1, 1.5f, 0.6f}, clumps(12), mediumOf(3.0f, 1.0f, 0.3f)));
+    builder.scene->volumes.push_back(
+        densityIn({-0.8f, 0, -0.8f}, {0.8f, 1.4f, 2}, clumps(12), mediumOf(2.0f, 1.0f, -0.4f)));
+    const auto traced = builder.build();
+    const View view = perspectiveView({6, 0, 1}, {0, 0, 0.4}, {0, 0, 1}, 26.0, 16, 16);
+    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Sppm,
+                                      IntegratorKind::Ppm, IntegratorKind::PhotonCaustics})
+    {
+        RenderOptions options = optionsOf(kind, 24);
+        options.photons = 5000;
+        options.photonRadius = 0.04f;
+        const Estimate seen = meanOf(traced, view, options, 4);
+        CAPTURE(int(kind), seen.mean(), seen.standardError());
+        CHECK(seen.agrees(1.0, 0.006)); // edges of discs, and what glass keeps for too long
+        CHECK(seen.standardError() < 0.01);
+    }
+}
+
 TEST_CASE("photons in volumes: the same bits for any number of threads", "[photons][volumes]")
 {
     for (const GridScene& scene : gridScenes())
@@ -182,7 +210,7 @@ TEST_CASE("photons in volumes: the same bits for any number of threads", "[photo
         {
             const auto traced = scene.builder.build();
             RenderOptions options = optionsOf(kind, 8);
-            options.photons = 4000;
+            options.photons = 12000;
             const View view = cornellView(24, 24);
             CAPTURE(scene.name, int(kind));
             const Picture one = render(traced, view, options, 2, 1);
