@@ -60,8 +60,7 @@ const char* noteText(MediumNote note)
         return "";
     case MediumNote::PathsInstead:
         return "photons do not bring the light that media emit: path replaces integrators that "
-               "need "
-               "them for it";
+               "need them for it";
     case MediumNote::SingleOnly:
         return "whitted has single scattering alone: path has all of the light in media";
     }
