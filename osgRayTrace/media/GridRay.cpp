@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/media/GridRay.h"
 
+#include "osgRayTrace/media/BlockWalk.h"
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/VolumeSample.h"
@@ -23,93 +24,23 @@ float largestOf(Vec3 v)
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// Walks through the blocks of one volume along a ray [Amanatides87].
-class BlockWalk
-{
-public:
-    void begin(const GridRecord& grid, Vec3 origin, Vec3 direction, RayPart part)
-    {
-        _grid = &grid;
-        _part = part;
-        const ValueBlocks& blocks = *grid.blocks->values;
-        const VolumeImage& image = *grid.volume->image;
-        const Vec3 size = Vec3(Vec3d(image.width, image.height, image.depth)) /
-                          static_cast<float>(ValueBlocks::kSide);
-        const Vec3 d = grid.imageFromEngine.linear * direction * size;
-        const Vec3 p = transformPoint(grid.imageFromEngine, origin + direction * part.begin) * size;
-        for (int k = 0; k < 3; ++k)
-        {
-            const int last = blocks.count[static_cast<std::size_t>(k)] - 1;
-            _at[k] = p[k] > 0.0f ? static_cast<int>(std::min(p[k], static_cast<float>(last))) : 0;
-            _step[k] = d[k] > 0.0f ? 1 : -1;
-            _delta[k] = d[k] != 0.0f ? std::fabs(1.0f / d[k]) : kInfinity;
-            const float border = static_cast<float>(_at[k] + (d[k] > 0.0f ? 1 : 0));
-            _next[k] =
-                d[k] != 0.0f ? part.begin + std::max(0.0f, (border - p[k]) / d[k]) : kInfinity;
-        }
-        _isWithin = false;
-        _end = part.begin;
-        _least = _most = 0.0f;
-    }
-
-    float end() const { return _end; }
-    float least() const { return _least; }
-    float most() const { return _most; }
-
-    /// Goes on to the piece behind end(): the next block, or all that is behind the volume.
-    void advance()
-    {
-        if (!_isWithin)
-            _isWithin = true;
-        else if (_end >= _part.end || !leaveBlock())
-        {
-            _end = kInfinity;
-            _least = _most = 0.0f;
-            return;
-        }
-        const ValueBlocks& blocks = *_grid->blocks->values;
-        const std::size_t block =
-            (static_cast<std::size_t>(_at[2]) * static_cast<std::size_t>(blocks.count[1]) +
-             static_cast<std::size_t>(_at[1])) *
-                static_cast<std::size_t>(blocks.count[0]) +
-            static_cast<std::size_t>(_at[0]);
-        _least = _grid->blocks->least[block];
-        _most = _grid->blocks->most[block];
-        _end = std::min(_part.end, std::min(_next[0], std::min(_next[1], _next[2])));
-    }
-
-private:
-    /// Steps into the next block. Returns false behind the last one.
-    bool leaveBlock()
-    {
-        const int k =
-            _next[0] <= _next[1] ? (_next[0] <= _next[2] ? 0 : 2) : (_next[1] <= _next[2] ? 1 : 2);
-        _at[k] += _step[k];
-        _next[k] += _delta[k];
-        return _at[k] >= 0 && _at[k] < _grid->blocks->values->count[static_cast<std::size_t>(k)];
-    }
-
-    const GridRecord* _grid = nullptr;
-    RayPart _part;
-    int _at[3], _step[3];
-    float _next[3], _delta[3];
-    float _end = 0.0f, _least = 0.0f, _most = 0.0f;
-    bool _isWithin = false;
-};
-
 } // namespace
 
-void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part)
+void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part,
+                float margin)
 {
     const Vec3 o = transformPoint(cubeFromEngine, origin), d = cubeFromEngine.linear * direction;
+    const Mat3 rows = glm::transpose(cubeFromEngine.linear);
     for (int k = 0; k < 3; ++k)
     {
+        const float wider = margin > 0.0f ? margin * glm::length(rows[k]) : 0.0f;
+        const float low = -wider, high = 1.0f + wider;
         if (d[k] == 0.0f)
         {
-            if (!(o[k] >= 0.0f && o[k] <= 1.0f)) part.end = part.begin;
+            if (!(o[k] >= low && o[k] <= high)) part.end = part.begin;
             continue;
         }
-        const float a = -o[k] / d[k], b = (1.0f - o[k]) / d[k];
+        const float a = (low - o[k]) / d[k], b = (high - o[k]) / d[k];
         part.begin = std::max(part.begin, std::min(a, b));
         part.end = std::min(part.end, std::max(a, b));
     }
@@ -160,14 +91,26 @@ Vec3 Scatterers::sample(Vec3 direction, float choice, float u, float v) const
 class GridRay::Pieces
 {
 public:
-    /// glow: tentative collisions at which emission is collected where nothing is extinguished.
-    Pieces(const GridRay& ray, float begin, float end, bool glow = false)
+    /// Which pieces get additional tentative collisions.
+    enum class Extra
+    {
+        None,
+        Glowing, ///< those that emit: emission is collected where nothing is extinguished, too
+        Reached, ///< those within reach of what scatters: see setReach
+    };
+
+    Pieces(const GridRay& ray, float begin, float end, Extra wanted = Extra::None)
         : _ray(ray), _begin(begin), _last(end)
     {
         // A few collisions along the way, whose number does not matter for the mean.
-        constexpr float kGlowDepth = 4.0f;
-        const float extra = glow && end > begin ? kGlowDepth / (end - begin) : 0.0f;
-        if (ray._around && ray._around->emits) _aroundExtra = extra;
+        constexpr float kExtraDepth = 4.0f;
+        const auto extraOn = [](float length)
+        { return length > 0.0f ? kExtraDepth / length : 0.0f; };
+        const bool reached = wanted == Extra::Reached;
+        if (reached && !ray._reached.isEmpty())
+            _reachedExtra = extraOn(ray._reached.end - ray._reached.begin);
+        const float extra = wanted != Extra::None ? extraOn(end - begin) : 0.0f;
+        if (ray._around && (reached || ray._around->emits)) _aroundExtra = extra;
         for (int i = 0; i < ray._count; ++i)
         {
             const auto k = static_cast<std::size_t>(i);
@@ -176,7 +119,7 @@ public:
             part.end = std::min(part.end, end);
             if (part.isEmpty()) continue;
             const GridRecord& grid = (*ray._table)[ray._spans[k].grid];
-            _extras[_count] = grid.emission != Vec3(0.0f) ? extra : 0.0f;
+            _extras[_count] = !reached && grid.emission != Vec3(0.0f) ? extra : 0.0f;
             _factors[_count] = ray._extinctions[k];
             _walks[_count++].begin(grid, ray._origin, ray._direction, part);
         }
@@ -200,18 +143,12 @@ public:
             if (_walks[i].most() > 0.0f) most += _extras[i];
             least += _walks[i].least() * _factors[i];
         }
-        if (_ray._around)
+        if (_ray._around && endsWithin(_ray._aroundPart))
         {
-            const RayPart& part = _ray._aroundPart;
-            if (_begin < part.begin)
-                _end = std::min(_end, part.begin);
-            else if (_begin < part.end)
-            {
-                _end = std::min(_end, part.end);
-                most += largestOf(_ray._around->sigmaT) + _aroundExtra;
-                least += _ray._around->sigmaT;
-            }
+            most += largestOf(_ray._around->sigmaT) + _aroundExtra;
+            least += _ray._around->sigmaT;
         }
+        if (_reachedExtra > 0.0f && endsWithin(_ray._reached)) most += _reachedExtra;
         return true;
     }
 
@@ -222,11 +159,20 @@ public:
     Vec3 least{0.0f};  ///< extinction that each channel has at least
 
 private:
+    /// Ends the piece where a part begins or ends. Returns whether the part holds the piece.
+    bool endsWithin(const RayPart& part)
+    {
+        if (_begin < part.begin) _end = std::min(_end, part.begin);
+        if (_begin < part.begin || !(_begin < part.end)) return false;
+        _end = std::min(_end, part.end);
+        return true;
+    }
+
     const GridRay& _ray;
     BlockWalk _walks[kMostVolumes];
     Vec3 _factors[kMostVolumes];
     float _extras[kMostVolumes];
-    float _aroundExtra = 0.0f;
+    float _aroundExtra = 0.0f, _reachedExtra = 0.0f;
     std::size_t _count = 0;
     float _begin, _last, _end = 0.0f;
 };
@@ -255,6 +201,23 @@ void GridRay::setAround(const MediumRecord& medium, RayPart part)
     _around = &medium;
     _aroundPart = part;
     _extent = {std::min(_extent.begin, part.begin), std::max(_extent.end, part.end)};
+}
+
+void GridRay::setReach(float reach, RayPart part)
+{
+    _reached = {kInfinity, -kInfinity};
+    for (std::size_t i = 0; i < _table->size(); ++i)
+    {
+        const GridRecord& grid = (*_table)[i];
+        if (!grid.scatters) continue;
+        RayPart within = part;
+        clipToCube(grid.tileFromEngine, _origin, _direction, within, reach);
+        clipToCube(grid.imageFromEngine, _origin, _direction, within, reach);
+        if (within.isEmpty() || !(within.end < kInfinity)) continue;
+        _reached = {std::min(_reached.begin, within.begin), std::max(_reached.end, within.end)};
+    }
+    if (_reached.isEmpty()) return;
+    _extent = {std::min(_extent.begin, _reached.begin), std::max(_extent.end, _reached.end)};
 }
 
 void GridRay::setLight(const VolumeLight& light)
@@ -329,7 +292,8 @@ Scatterers GridRay::scatterersAt(float distance) const
     return scatterers;
 }
 
-GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
+GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers,
+                           std::vector<TentativeCollision>* tentativeOnes) const
 {
     GridFlight result;
     float u = numbers.next();
@@ -337,7 +301,8 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
     Vec3 share(1.0f); // F, times a common factor
     float depth = -std::log1p(-u);
     int tentative = 0;
-    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    const Pieces::Extra extra = tentativeOnes ? Pieces::Extra::Reached : Pieces::Extra::Glowing;
+    for (Pieces piece(*this, _extent.begin, _extent.end, extra); piece.advance();)
     {
         float t = piece.begin();
         while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))
@@ -352,6 +317,7 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers) const
             const Coefficients here = at(t, true);
             const float norm = glm::dot(pmf, share);
             result.emitted += share * here.emission / (piece.most * norm);
+            if (tentativeOnes) tentativeOnes->push_back({t, share / (piece.most * norm)});
             const Vec3 real = glm::min(here.sigmaT / piece.most, 1.0f);
             if (numbers.next() < real[channel])
             {
@@ -377,7 +343,7 @@ GridWay GridRay::way(NumberStream& numbers) const
     GridWay result;
     float depth = -std::log1p(-numbers.next());
     int tentative = 0;
-    for (Pieces piece(*this, _extent.begin, _extent.end, true); piece.advance();)
+    for (Pieces piece(*this, _extent.begin, _extent.end, Pieces::Extra::Glowing); piece.advance();)
     {
         float t = piece.begin();
         while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))

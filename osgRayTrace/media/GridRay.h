@@ -17,6 +17,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -36,8 +37,10 @@ private:
 /// lost. They are more than 65 000 mean free paths of the densest block.
 constexpr int kMostTentative = 65536;
 
-/// Makes a part end where the ray enters and leaves the unit cube of a space.
-void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part);
+/// Makes a part end where the ray enters and leaves the unit cube of a space, whose faces are moved
+/// outwards by margin [length of the ray's space].
+void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part,
+                float margin = 0.0f);
 
 /// The part of a ray within a volume.
 struct GridSpan
@@ -78,6 +81,14 @@ struct GridFlight
     Vec3 emitted{0.0f};    ///< radiance that was emitted on the way
 };
 
+/// A tentative collision of a flight. The sum of weight f(distance) over those of a flight is an
+/// estimate of the integral of transmittance f over the ray.
+struct TentativeCollision
+{
+    float distance = 0.0f; ///< along the ray
+    Vec3 weight{0.0f};     ///< [length]
+};
+
 /// What is left of light on a way, and what was added to it.
 struct GridWay
 {
@@ -104,12 +115,19 @@ public:
     /// Adds the homogeneous medium that fills a part of the ray.
     void setAround(const MediumRecord& medium, RayPart part);
 
+    /// Has flights that tell their tentative collisions make some of them wherever a part of the
+    /// ray is nearer than reach to the cube of a volume that scatters [length], also where nothing
+    /// is.
+    void setReach(float reach, RayPart part);
+
     /// Has the colours of volumes that are lit be lit by a light. Without it they are as they are.
     void setLight(const VolumeLight& light);
 
     /// Returns whether no volume is on the ray.
     bool isEmpty() const { return _count == 0; }
-    /// Returns the part of the ray that anything fills.
+    /// Returns whether a part of the ray is within the reach of setReach.
+    bool isReached() const { return !_reached.isEmpty(); }
+    /// Returns the part of the ray that anything fills, or that is within reach.
     RayPart extent() const { return _extent; }
     bool scatters() const;
     int count() const { return _count; }
@@ -117,7 +135,10 @@ public:
     const GridTable& table() const { return *_table; }
 
     /// Returns where light that travels along the ray collides. pmf: probabilities of the channels.
-    GridFlight flight(Vec3 pmf, NumberStream& numbers) const;
+    /// tentative: gets the tentative collisions, in order, the real one as the last, and some of
+    /// them in the medium around and within reach where next to nothing collides; may be null.
+    GridFlight flight(Vec3 pmf, NumberStream& numbers,
+                      std::vector<TentativeCollision>* tentative = nullptr) const;
 
     /// Returns what is left of light at the end, and what was emitted, without an end by chance
     /// [ratio tracking: Novak14, eq. 8].
@@ -148,7 +169,7 @@ private:
     bool _isLit = false; ///< whether the latter are set
     int _count = 0;
     const MediumRecord* _around = nullptr;
-    RayPart _aroundPart, _extent;
+    RayPart _aroundPart, _reached, _extent;
 };
 
 } // namespace osgRayTrace::engine

@@ -18,7 +18,12 @@
 // photons is where they come in. Collisions add an edge between the light and the first surface,
 // and a second one if there are more than one there; or else one between the first two surfaces.
 // Paths from the eye need that many, as PathMedium.cpp scatters them only where light could follow.
-#include "osgRayTrace/photons/ChunkTracer.h"
+//
+// Volumes have no closed form of transmittance, which beams would need at every look-up. In scenes
+// with volumes all media therefore store points, of those photons alone that paths cannot find
+// well: which have met mirror-like surfaces and nothing else since they left their light.
+// ChunkGrids.cpp has the flights through volumes.
+#include "osgRayTrace/photons/ChunkFlights.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/NormalMaps.h"
@@ -38,16 +43,8 @@ namespace
 /// Beams end where so little of their light is left.
 constexpr float kBeamEnd = 9.21f; ///< optical depth: exp(-9.21) = 1e-4
 
-/// Of the collisions of a photon between two surfaces so many are stored; later ones by chance.
-constexpr float kSurePoints = 8.0f;
-
 /// Of the ways of a photon between two surfaces so many leave a beam each; later ones by chance.
 constexpr float kSureBeams = 4.0f;
-
-float largestOf(Vec3 v)
-{
-    return std::max(v.x, std::max(v.y, v.z));
-}
 
 /// Returns the edges of a path from the light to a collision on the way on which a photon is, which
 /// has met so many surfaces.
@@ -58,45 +55,20 @@ uint32_t edgesInMedium(int32_t met, uint32_t late)
     return std::max(2u, static_cast<uint32_t>(met) + added);
 }
 
-/// Names the numbers of a stretch of a photon's way.
-enum FlightDimension : uint32_t
-{
-    FlightLength = 0, ///< x: free flight, y: Russian roulette
-    FlightPhase = 1,
-    FlightKept = 2, ///< whether x: the beam, y: the collision is stored
-};
-
 } // namespace
 
-/// Holds the flights of a block up to the next surfaces.
-struct ChunkTracer::Flights
+/// Returns the seed of the numbers of a stretch that have the same use.
+uint32_t ChunkTracer::flightSeed(int bounce, uint32_t stretch, uint32_t use) const
 {
-    Flights(const MediumTable& m, int b) : media(m), bounce(b) {}
-
-    const MediumTable& media;
-    const int bounce;
-    FloatLanes begin;              ///< where on the ray the stretch begins
-    uint32_t steps[kLanes] = {};   ///< collisions
-    uint32_t stretch[kLanes] = {}; ///< number of the stretch: no two have the same random numbers
-    MediumId within[kLanes];
-    RayPart parts[kLanes];
-    SurfaceLanes surface;
-
-    bool hasHit(int i) const { return (surface.hits >> i) & 1u; }
-    bool isFront(int i) const { return (surface.front >> i) & 1u; }
-    MediumId bodyAt(int i) const
-    {
-        return hasHit(i) ? media.interiorOf(surface.material[i]) : kOutside;
-    }
-};
+    constexpr uint32_t kFlight = 0x666c7974u; // tells these dimensions from all others
+    return dimension(hash(kFlight + static_cast<uint32_t>(bounce), 4 * stretch + use));
+}
 
 /// Returns two numbers of a stretch. The first stretch of each edge takes points of Sobol's
 /// sequence over the photons; the walk that may follow takes independent numbers.
 Vec2 ChunkTracer::flightNumbers(uint32_t photon, int bounce, uint32_t stretch, uint32_t use) const
 {
-    constexpr uint32_t kFlight = 0x666c7974u; // tells these dimensions from all others
-    const uint32_t seed =
-        dimension(hash(kFlight + static_cast<uint32_t>(bounce), 4 * stretch + use));
+    const uint32_t seed = flightSeed(bounce, stretch, use);
     Vec2 point;
     if (stretch == 0)
     {
@@ -116,6 +88,7 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     const MediumRecord& medium = flights.media[flights.within[i]];
     const bool isDirect = flights.bounce == 0 && step == 0;
     if (isDirect || photon >= beams || medium.isDense) return;
+    if (_inputs.traced.traits().volumes) return; // photons are points there
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSureBeams / static_cast<float>(step + 1));
     const Vec2 numbers = flightNumbers(photon, flights.bounce, flights.stretch[i], FlightKept);
@@ -139,36 +112,63 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
         _chunk.beams.push_back(beam);
 }
 
-/// Stores a photon at a collision with a dense medium.
+/// Returns whether a photon is stored where it collides: with dense media, unless it comes straight
+/// from its light; in scenes with volumes, if it has met mirror-like surfaces and nothing else.
+bool ChunkTracer::storesPoints(const PhotonPathBlock& block, const Flights& flights, int i) const
+{
+    if (_inputs.traced.traits().volumes) return flights.bounce > 0 && block.direct[i] != 0;
+    return flights.media[flights.within[i]].isDense &&
+           (flights.bounce > 0 || ((_collided >> i) & 1u) != 0);
+}
+
+/// Stores a photon at a collision with a homogeneous medium.
 void ChunkTracer::storePoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
                              Vec3 power)
 {
-    const uint32_t step = flights.steps[i];
+    const float kept = std::min(1.0f, kSurePoints / static_cast<float>(flights.steps[i] + 1));
+    const Vec2 numbers =
+        flightNumbers(block.photon[i], flights.bounce, flights.stretch[i], FlightKept);
+    if (kept < 1.0f && !(numbers.y < kept)) return;
+    appendPoint(block, flights, i, at, power / kept);
+}
+
+/// Stores a photon at a point of its ray.
+void ChunkTracer::appendPoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
+                              Vec3 power)
+{
     const uint32_t edges = edgesInMedium(block.met[i], block.late[i]);
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
-    const float kept = std::min(1.0f, kSurePoints / static_cast<float>(step + 1));
-    const uint32_t photon = block.photon[i];
-    const Vec2 numbers = flightNumbers(photon, flights.bounce, flights.stretch[i], FlightKept);
-    if (kept < 1.0f && !(numbers.y < kept)) return;
-    const PhotonPoint point{at, laneOf(block.direction, i), power / kept, flights.within[i], edges};
+    const PhotonPoint point{at, laneOf(block.direction, i), power, flights.within[i], edges};
     if (isFinite(point.power) && isFinite(at))
         _chunk.points.push_back(point);
     else
         ++_chunk.dropped;
 }
 
+/// Returns whether photons may not collide: caustics begin with a surface, and what collides before
+/// it is left to paths.
+bool ChunkTracer::mustArrive(const Flights& flights) const
+{
+    return flights.bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
+}
+
 /// Takes a photon along its stretch.
 ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights, int i)
 {
+    if (_inputs.traced.traits().volumes)
+    {
+        const bool stores = storesPoints(block, flights, i);
+        const GridRay grids = gridsOn(block, flights, i, stores);
+        const bool leavesPoints = stores && (grids.scatters() || grids.isReached());
+        if (!grids.isEmpty() || leavesPoints) return flyGrids(block, flights, i, grids);
+    }
     const RayPart& part = flights.parts[i];
     if (part.isEmpty()) return meet(block, flights, i);
     const MediumRecord& medium = flights.media[flights.within[i]];
     const float length = part.end - part.begin;
     const Vec3 power = laneOf(block.power, i);
     if (!(largestOf(power) > 0.0f)) return FlightEnd::Dies; // it has underflowed
-    // Caustics begin with a surface: what collides before it is left to paths.
-    const bool mustArrive = flights.bounce == 0 && _inputs.options.use == PhotonUse::Caustics;
-    if (!medium.scatters || mustArrive)
+    if (!medium.scatters || mustArrive(flights))
     {
         setLane(block.power, i, power * transmittance(medium.sigmaT, length));
         return meet(block, flights, i);
@@ -190,32 +190,46 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     const MediumRecord& medium = flights.media[flights.within[i]];
     const uint32_t photon = block.photon[i], stretch = flights.stretch[i];
     const bool first = flights.bounce == 0 && !((_collided >> i) & 1u);
-    _collided |= 1u << i;
-    block.direct[i] = 0;
-    RayBlock& ray = _rays.ray;
+    const RayBlock& ray = _rays.ray;
     const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
     const Vec3 direction = laneOf(block.direction, i), point = origin + direction * distance;
     Vec3 power = laneOf(block.power, i);
     if (first) power *= fallenOff(block.light[i], point, distance);
-    if (medium.isDense && !first) storePoint(block, flights, i, point, power);
+    if (storesPoints(block, flights, i)) storePoint(block, flights, i, point, power);
+    countCollision(block, flights, i);
+    power *= medium.sigmaS;
+    const float survival = std::min(1.0f, largestOf(power) / before);
+    if (!(flightNumbers(photon, flights.bounce, stretch, FlightLength).y < survival))
+        return FlightEnd::Dies;
+    const Vec2 u = flightNumbers(photon, flights.bounce, stretch, FlightPhase);
+    const Vec3 after = samplePhase(medium.anisotropy, direction, u.x, u.y);
+    return leaveCollision(block, flights, i, point, after, power / survival);
+}
+
+/// Counts a collision of a photon, and the edges that it adds to its path.
+void ChunkTracer::countCollision(PhotonPathBlock& block, Flights& flights, int i)
+{
+    _collided |= 1u << i;
+    block.direct[i] = 0;
     ++flights.steps[i];
     ++flights.stretch[i];
     if (block.met[i] == 0)
         block.late[i] = std::min(2u, block.late[i] + 1);
     else if (block.met[i] == 1)
         block.late[i] = std::max(1u, block.late[i]);
-    power *= medium.sigmaS;
-    const float survival = std::min(1.0f, largestOf(power) / before);
-    if (!(flightNumbers(photon, flights.bounce, stretch, FlightLength).y < survival))
-        return FlightEnd::Dies;
+}
+
+/// Sends a photon on from a point in a direction, unless it has collided too often.
+ChunkTracer::FlightEnd ChunkTracer::leaveCollision(PhotonPathBlock& block, Flights& flights, int i,
+                                                   Vec3 point, Vec3 after, Vec3 power)
+{
     if (flights.steps[i] >= kMostFlights)
     {
         ++_chunk.cutWalks;
         return FlightEnd::Dies;
     }
-    setLane(block.power, i, power / survival);
-    const Vec2 u = flightNumbers(photon, flights.bounce, stretch, FlightPhase);
-    const Vec3 after = samplePhase(medium.anisotropy, direction, u.x, u.y);
+    RayBlock& ray = _rays.ray;
+    setLane(block.power, i, power);
     setLane(block.direction, i, after);
     setRay(ray, i, plainOf(point), plainOf(after), 0.0f, kInfinity);
     flights.begin[i] = 0.0f;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/media/GridRay.h"
 #include "osgRayTrace/photons/PhotonEmitter.h"
 #include "osgRayTrace/photons/PhotonPaths.h"
 #include "osgRayTrace/photons/TracedPhotons.h"
@@ -105,11 +106,23 @@ private:
     FlightEnd collide(PhotonPathBlock& block, Flights& flights, int i, float distance,
                       float before);
     FlightEnd meet(PhotonPathBlock& block, Flights& flights, int i);
+    void countCollision(PhotonPathBlock& block, Flights& flights, int i);
+    FlightEnd leaveCollision(PhotonPathBlock& block, Flights& flights, int i, Vec3 point,
+                             Vec3 after, Vec3 power);
+    bool mustArrive(const Flights& flights) const;
+    bool storesPoints(const PhotonPathBlock& block, const Flights& flights, int i) const;
     void storeBeam(const PhotonPathBlock& block, const Flights& flights, int i);
     void storePoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
                     Vec3 power);
+    void appendPoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
+                     Vec3 power);
+    GridRay gridsOn(const PhotonPathBlock& block, const Flights& flights, int i, bool stores) const;
+    FlightEnd flyGrids(PhotonPathBlock& block, Flights& flights, int i, const GridRay& grids);
+    FlightEnd scatterInGrids(PhotonPathBlock& block, Flights& flights, int i, const GridRay& grids,
+                             const GridFlight& flight, NumberStream& numbers);
     void traceOn(LaneMask lanes);
-    Vec2 flightNumbers(uint32_t photon, int bounce, uint32_t step, uint32_t use) const;
+    uint32_t flightSeed(int bounce, uint32_t stretch, uint32_t use) const;
+    Vec2 flightNumbers(uint32_t photon, int bounce, uint32_t stretch, uint32_t use) const;
     float fallenOff(uint32_t light, Vec3 point, float way) const;
     LaneMask enterBodies(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask alive);
     const Bsdf* bsdfInBodies(const PhotonPathBlock& block, const SurfaceLanes& surface, int i);

@@ -124,6 +124,12 @@ PhotonEmitter::PhotonEmitter(const TracedScene& traced, const std::vector<Light>
         const MediumTable& media = traced.media();
         // Light from far away collides in the whole of the medium around all bodies.
         if (!media[kOutside].isClear) _scene = around(_scene, {media.centre(), media.radius()});
+        if (traced.grids().size() > 0)
+        {
+            Vec3 low(kInfinity), high(-kInfinity);
+            traced.grids().widen(low, high);
+            _scene = around(_scene, {0.5f * (low + high), 0.5f * glm::length(high - low)});
+        }
         _bodies = bodiesOfLights(traced, lights);
     }
 

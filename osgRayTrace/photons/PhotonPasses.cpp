@@ -119,9 +119,6 @@ float densityRadius(const std::vector<PhotonBeam>& beams, float most, const Work
     return std::min(radii[kLines / 2], most);
 }
 
-/// The largest radius of a beam's kernel, over that of the scene.
-constexpr float kWidestBeam = 0.02f;
-
 /// The largest length of the pieces into which beams are cut, over the radius of the scene.
 constexpr float kBeamPiece = 0.15f;
 
@@ -163,7 +160,7 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const Sphere& sphere = _emitter->scene();
-    const float widest = kWidestBeam * sphere.radius;
+    const float widest = kWidestKernel * sphere.radius;
     const float apart = densityRadius(_first->points, workers);
     _density->pointRadius = apart > 0.0f ? std::min(apart, widest) : widest;
     _density->beamRadius = densityRadius(_first->beams, widest, workers);

@@ -41,7 +41,8 @@ PointMap::PointMap(const std::vector<PhotonPoint>& points)
         _points.push_back(points[k]);
 }
 
-Vec3 PointMap::gather(const PointQuery& query) const
+/// Returns the sum over the photons of the sphere of power times of(cosine), over its volume.
+template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const Scattered& of) const
 {
     const float radius2 = query.radius * query.radius;
     Vec3 sum(0.0f);
@@ -55,11 +56,20 @@ Vec3 PointMap::gather(const PointQuery& query) const
                         const Vec3 off = point.position - query.position;
                         if (!(glm::dot(off, off) < radius2)) continue;
                         if (point.medium != query.medium || point.edges > query.mostEdges) continue;
-                        sum += point.power * evalPhase(query.anisotropy,
-                                                       glm::dot(point.direction, query.towards));
+                        sum += point.power * of(glm::dot(point.direction, query.towards));
                     }
                 });
     return sum / (4.0f / 3.0f * kPi * radius2 * query.radius);
+}
+
+Vec3 PointMap::gather(const PointQuery& query) const
+{
+    return sumOf(query, [&](float cosTheta) { return evalPhase(query.anisotropy, cosTheta); });
+}
+
+Vec3 PointMap::gather(const PointQuery& query, const Scatterers& here) const
+{
+    return sumOf(query, [&](float cosTheta) { return here.scattered(cosTheta); });
 }
 
 } // namespace osgRayTrace::engine

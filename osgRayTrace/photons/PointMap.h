@@ -8,10 +8,11 @@
 //   L = sigmaS sum over photons of power p(cosTheta) / (4/3 pi r^3)
 //
 // A photon's power is that with which it comes to its collision, over the extinction: power of a
-// flight over its density, so that the sum over photons is the fluence.
+// flight over its density, so that the sum over photons is the fluence. In volumes, tentative
+// collisions count as well, with the majorant in place of the extinction.
 #pragma once
 
-#include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/media/GridRay.h"
 #include "osgRayTrace/photons/BoxTree.h"
 
 #include <cstdint>
@@ -54,7 +55,13 @@ public:
     /// Returns the scattered radiance over sigmaS, along the query's direction.
     Vec3 gather(const PointQuery& query) const;
 
+    /// Returns the radiance that is scattered along the query's direction by what is at its
+    /// position. The query's anisotropy does not count.
+    Vec3 gather(const PointQuery& query, const Scatterers& here) const;
+
 private:
+    template <class Scattered> Vec3 sumOf(const PointQuery& query, const Scattered& of) const;
+
     std::vector<PhotonPoint> _points; ///< in the order of the tree
     BoxTree _tree;
 };

@@ -14,11 +14,15 @@ namespace osgRayTrace::engine
 struct VolumePhotons
 {
     BeamMap beams;
-    PointMap points; ///< in dense media
+    PointMap points; ///< in dense media, or in scenes with volumes
 
     bool isEmpty() const { return beams.size() == 0 && points.size() == 0; }
     std::size_t bytes() const { return beams.bytes() + points.bytes(); }
 };
+
+/// The largest radius of kernels within media, over that of the scene. Whoever sets a radius may
+/// get larger ones, but not in scenes with volumes: photons leave no points farther from a volume.
+constexpr float kWidestKernel = 0.02f;
 
 /// The exponents of the schedules of kernels of d dimensions, whose measure goes with the number of
 /// passes to the power of alpha - 1 [Knaus11; Jarosz11b]. Variance then goes with -alpha and

@@ -108,7 +108,9 @@ SceneTraits sceneTraits(const Scene& scene, const SceneTraits* alike)
     for (const Volume& volume : scene.volumes)
     {
         traits.volumes = traits.media = traits.veils = true;
-        traits.scattering |= volume.law == VolumeLaw::Density && volume.medium.scatters();
+        const bool density = volume.law == VolumeLaw::Density; // others glow in their colours
+        traits.scattering |= density && volume.medium.scatters();
+        traits.glowing |= !density || volume.medium.emits();
     }
     for (const Light& light : scene.lights)
     {

@@ -169,6 +169,9 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     { return std::clamp(wanted > 0.0f ? wanted : std::max(radius, width), _floor, ceiling); };
     _beamRadius = first(density.beamRadius);
     _pointRadius = first(density.pointRadius);
+    if (context.traced->traits().volumes)
+        _pointRadius =
+            std::max(_floor, std::min(_pointRadius, kWidestKernel * density.sceneRadius));
 }
 
 void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,

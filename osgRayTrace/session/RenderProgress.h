@@ -60,8 +60,7 @@ struct StopRule
 enum class MediumNote : uint8_t
 {
     None,
-    PathsInstead, ///< photons were asked for, and there are volumes, or all light and a medium
-                  ///< emits
+    PathsInstead, ///< photons were asked for that bring all light, and a medium emits
     SingleOnly,   ///< Whitted's integrator has single scattering alone
 };
 
@@ -112,7 +111,7 @@ struct RenderProgress
     PhotonNote photonNote = PhotonNote::None; ///< the note on all passes together
     uint64_t storedPhotons = 0;               ///< photons in the map of the last pass; 0: none
     uint64_t storedBeams = 0;                 ///< beams of the last pass, in media
-    uint64_t storedPoints = 0;                ///< photons of the last pass in dense media
+    uint64_t storedPoints = 0;                ///< photons of the last pass at points within media
     float beamRadius = 0.0f;                  ///< of the last pass [length]; 0 without beams
     uint64_t photonBytes = 0;                 ///< memory of the maps, which all views share
     /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.

@@ -94,13 +94,12 @@ Vec3 eyeOf(const View& view, const Scene& scene)
 }
 
 /// Returns what the chosen integrator makes of the scene's media.
-MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, SceneTraits traits)
+MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, const SceneTraits& traits)
 {
     if (!traits.media) return MediumNote::None;
     const bool single = chosen == IntegratorKind::Whitted && traits.scattering;
-    traits.volumes = false; // the automatic choice may be another one because of them
-    if (wanted == IntegratorKind::Automatic) wanted = chooseIntegrator(wanted, traits);
-    if (photonUse(wanted) != photonUse(chosen)) return MediumNote::PathsInstead;
+    if (wanted != IntegratorKind::Automatic && photonUse(wanted) != photonUse(chosen))
+        return MediumNote::PathsInstead;
     return single ? MediumNote::SingleOnly : MediumNote::None;
 }
 

@@ -87,3 +87,22 @@ TEST_CASE("photons are taken at rough surfaces only, and once for all", "[path]"
     CHECK(pathAfter({kDiffuse, kMirror, kDiffuseWithoutPhotons}).hasTaken());
     CHECK(pathAfter({kGlossy}).isScattered());
 }
+
+TEST_CASE("behind a collision that looked up caustics, mirrors lead onto a chain and photons are "
+          "still wanted",
+          "[path]")
+{
+    const PathFlags path = PathFlags::ofPixel(kPixel).collidedAmongCaustics();
+    CHECK(path.hasCollided());
+    CHECK_FALSE(path.hasTaken());
+    CHECK_FALSE(path.isOnCausticChain());
+    const auto after = [](PathFlags flags, const Lobe& lobe)
+    {
+        return PathFlags(PathFlags::afterSurface(flags.word(), lobe.gathering, lobe.rough,
+                                                 lobe.carried, lobe.mirrored));
+    };
+    CHECK(after(path, kMirror).isOnCausticChain());
+    CHECK_FALSE(after(after(path, kDiffuseWithoutPhotons), kMirror).isOnCausticChain());
+    CHECK(after(path, kDiffuse).hasTaken());
+    CHECK(pathAfter({kDiffuse}).collidedAmongCaustics().hasTaken());
+}

@@ -1,7 +1,5 @@
 // VolumeTransportTest.cpp - paths through volumes compared with closed forms and with media.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/media/GridRay.h"
-
 #include "tests/integrators/VolumeScenes.h"
 
 #include <limits>
@@ -39,36 +37,6 @@ void addWall(SceneBuilder& builder, Vec3 radiance)
     builder.add(quadMesh({3, -50, -50}, {0, 0, 100}, {0, 100, 0}), lamp(radiance));
 }
 
-/// The integral over x from 0 to 1 of a density of n voxels with the value (i + 1/2) / n: trapezia
-/// between the middles of voxels, with 0 beyond the image.
-double rampDepth(int n)
-{
-    const auto value = [n](int i) { return i < 0 || i >= n ? 0.0 : (i + 0.5) / n; };
-    double sum = 0.0;
-    for (int i = 0; i + 1 < n; ++i)
-        sum += 0.5 * (value(i) + value(i + 1)) / n;
-    // Half a cell at each face, in which the value falls to half of the outermost one.
-    return sum + 0.75 * 0.5 * (value(0) + value(n - 1)) / n;
-}
-
-std::shared_ptr<const VolumeImage> ramp(int n)
-{
-    return newVolumeImage(n, 3, 3, [n](int x, int, int) { return (float(x) + 0.5f) / float(n); });
-}
-
-/// Returns voxels of random densities, a fifth of them above 0.
-std::shared_ptr<const VolumeImage> clumps(int n)
-{
-    uint32_t state = 7;
-    return newVolumeImage(n, n, n,
-                          [&state](int, int, int)
-                          {
-                              state = hash(state, 1u);
-                              const float u = unitFloat(state);
-                              return u < 0.8f ? 0.0f : (u - 0.8f) * 20.0f;
-                          });
-}
-
 } // namespace
 
 TEST_CASE("volumes: light falls by Beer's law through a ramp of densities",
@@ -94,60 +62,6 @@ TEST_CASE("volumes: light falls by Beer's law through a ramp of densities",
                 CHECK(seen[c].agrees(expected, 1e-5));
             }
         }
-}
-
-TEST_CASE("volumes: flights have the transmittance of closed forms, in all channels",
-          "[integrators][statistics][volumes]")
-{
-    const Vec3 sigma(0.4f, 1.5f, 4.0f);
-    Scene scene;
-    Medium medium;
-    medium.sigmaS = sigma;
-    scene.volumes.push_back(densityIn({0, 0, 0}, {1, 1, 1}, ramp(40), medium));
-    // One dense voxel far from the ray raises the majorant of no block that the ray crosses, and
-    // one beside it raises the majorant of its own.
-    const GridTable table(scene, nullptr, nullptr, nullptr);
-    const GridRay ray(table, {-1, 0.5f, 0.5f}, {1, 0, 0}, 0.0f, 9.0f);
-    Medium air = mediumOf(0.3f, 1.0f);
-    SceneBuilder around;
-    setAtmosphere(around, air, 50.0f);
-    const MediumTable media(*around.scene, Vec3(-1.0f), Vec3(1.0f));
-    for (const bool inAir : {false, true})
-    {
-        GridRay filled = ray;
-        if (inAir) filled.setAround(media[kOutside], {0.5f, 3.0f});
-        std::array<Estimate, 3> left, ways, shadows, collided;
-        for (uint32_t k = 0; k < 40000; ++k)
-        {
-            NumberStream numbers(hash(k, 3u));
-            const GridFlight flight = filled.flight(Vec3(0.5f, 0.3f, 0.2f), numbers);
-            const GridWay way = filled.way(numbers);
-            const Vec3 shadow = filled.transmittance(0.0f, 9.0f, numbers);
-            const Scatterers here =
-                flight.collides ? filled.scatterersAt(flight.distance) : Scatterers();
-            Vec3 sum(0.0f);
-            for (int i = 0; i < here.count; ++i)
-                sum += here.sigmaS[std::size_t(i)];
-            for (std::size_t c = 0; c < 3; ++c)
-            {
-                left[c].add(flight.collides ? 0.0 : double(flight.weight[int(c)]));
-                collided[c].add(double(flight.weight[int(c)] * sum[int(c)]));
-                ways[c].add(double(way.left[int(c)]));
-                shadows[c].add(double(shadow[int(c)]));
-            }
-        }
-        for (std::size_t c = 0; c < 3; ++c)
-        {
-            const double depth = double(sigma[int(c)]) * rampDepth(40) + (inAir ? 0.3 * 2.5 : 0.0);
-            const double expected = std::exp(-depth);
-            CAPTURE(inAir, c, expected, left[c].mean(), ways[c].mean(), shadows[c].mean());
-            CHECK(left[c].agrees(expected));
-            CHECK(collided[c].agrees(1.0 - expected));
-            CHECK(ways[c].agrees(expected));
-            CHECK(shadows[c].agrees(expected));
-            CHECK(left[c].standardError() < 0.01);
-        }
-    }
 }
 
 TEST_CASE("volumes: no light is lost or gained in a white sky",
@@ -407,24 +321,37 @@ TEST_CASE("volumes: the same bits for any number of threads", "[integrators][vol
           IntegratorKind::Path);
 }
 
-TEST_CASE("volumes: paths take the place of photons", "[integrators][volumes]")
+TEST_CASE("volumes: photons fly through them, but do not bring their own light",
+          "[integrators][volumes]")
 {
     SceneBuilder builder = cornellBox();
     builder.scene->materials.back().transmission = 1.0f; // a caster of caustics
     builder.scene->volumes.push_back(
         densityIn({100, 100, 100}, {400, 400, 400}, clumps(24), mediumOf(0.02f, 0.9f, 0.2f)));
-    const auto traced = builder.build();
     const View view = cornellView(16, 16);
-    const auto wanted = {IntegratorKind::Ppm, IntegratorKind::Sppm, IntegratorKind::PhotonCaustics};
-    for (const IntegratorKind kind : wanted)
+    const auto indirect = {IntegratorKind::Ppm, IntegratorKind::Sppm};
+    const auto traced = builder.build();
+    for (const IntegratorKind kind : indirect)
     {
         const Picture picture = render(traced, view, optionsOf(kind), 1);
-        CHECK(picture.progress.integrator == IntegratorKind::Path);
-        CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
+        CHECK(picture.progress.integrator == kind);
+        CHECK(picture.progress.mediumNote == MediumNote::None);
     }
     const Picture picture = render(traced, view, optionsOf(IntegratorKind::Automatic), 1);
-    CHECK(picture.progress.integrator == IntegratorKind::Path);
-    CHECK(picture.progress.mediumNote == MediumNote::PathsInstead);
+    CHECK(picture.progress.integrator == IntegratorKind::PhotonCaustics);
+    CHECK(picture.progress.mediumNote == MediumNote::None);
+
+    builder.scene->volumes.back().medium.emission = Vec3(1e-3f);
+    const auto glowing = builder.build();
+    for (const IntegratorKind kind : indirect)
+    {
+        const Picture paths = render(glowing, view, optionsOf(kind), 1);
+        CHECK(paths.progress.integrator == IntegratorKind::Path);
+        CHECK(paths.progress.mediumNote == MediumNote::PathsInstead);
+    }
+    const Picture caustics = render(glowing, view, optionsOf(IntegratorKind::Automatic), 1);
+    CHECK(caustics.progress.integrator == IntegratorKind::PhotonCaustics);
+    CHECK(caustics.progress.mediumNote == MediumNote::None);
 }
 
 TEST_CASE("volumes: edits redo blocks alone, and those that serve are taken over",

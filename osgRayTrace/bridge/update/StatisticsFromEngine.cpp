@@ -59,8 +59,8 @@ const char* noteText(MediumNote note)
     case MediumNote::None:
         return "";
     case MediumNote::PathsInstead:
-        return "photons do not meet volumes, nor bring the light that media emit: path replaces "
-               "integrators that need them for it";
+        return "photons do not bring the light that media emit: path replaces integrators that "
+               "need them for it";
     case MediumNote::SingleOnly:
         return "whitted has single scattering alone: path has all of the light in media";
     }

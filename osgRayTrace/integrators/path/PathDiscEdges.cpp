@@ -113,7 +113,7 @@ void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
     // there.
     if (!planes || bounce.number > 0 || tile.context.photonUse != PhotonUse::Indirect) return;
     GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
-    for (const int i : lanesIn(queries.lanes))
+    for (const int i : lanesIn(queries.lanes & ~bounce.collided))
     {
         SeenPlane& known = planes[block.flagsOf(i).pixel()];
         const bool through = !((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough();

@@ -104,7 +104,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             continue;
         }
         if (!environment) continue; // a backdrop gives no light
-        if (use == PhotonUse::Caustics && path.isOnCausticChain()) continue; // photons carry it
+        if (use != PhotonUse::None && path.isOnCausticChain()) continue; // photons carry it
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // strata hold all of its light
         const Vec3 direction = directionOf(block.rays.ray, i);

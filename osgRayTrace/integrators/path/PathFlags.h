@@ -51,8 +51,9 @@ public:
     /// Returns whether photons already carry the light that the path meets now. Either a glossy
     /// surface after the look-up has scattered the path, or the path has met mirror-like surfaces
     /// since the last surface that scattered it. That surface is then one that photons know: the
-    /// rough surface of the look-up, any surface after it, or a glossy surface where direct photons
-    /// were looked up. The fact matters with PhotonUse::Caustics.
+    /// rough surface of the look-up, any surface after it, a glossy surface where direct photons
+    /// were looked up, or a medium where they were. With PhotonUse::Indirect that is a medium
+    /// alone.
     bool isOnCausticChain() const { return (_word & kCausticChain) != 0; }
 
     /// Returns whether the path is one of the two into which a camera path has split.
@@ -81,6 +82,10 @@ public:
     {
         return PathFlags(collided().word() | kTaken | kGathered);
     }
+
+    /// Returns the flags of the same path after a medium has scattered it, where photons are looked
+    /// up that have met mirror-like surfaces alone: the path goes on as if nothing had been taken.
+    PathFlags collidedAmongCaustics() const { return PathFlags(collided().word() | kGathered); }
 
     /// Returns the word after a surface, for loops over lanes. Each of the other arguments is all
     /// bits or none: gathering if photons were looked up, rough if photons were looked up on a

@@ -184,6 +184,7 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     sums.chosen = sums.compared = 0;
     GatheredPhotons& gathered = *tile.result.photons.gathered;
     if (!gathered.planes || bounce.number > 0) return;
+    queries.lanes &= ~bounce.collided; // the pixel does not see their surfaces
     PixelCorner pixels[kLanes];
     for (const int i : lanesIn(queries.lanes))
     {
@@ -219,7 +220,7 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     const float significance = tile.context.photonUse == PhotonUse::Caustics
                                    ? kCausticSignificance
                                    : kIndirectSignificance;
-    for (const int i : lanesIn(queries.lanes))
+    for (const int i : lanesIn(queries.lanes & ~bounce.collided))
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = planes[pixel];

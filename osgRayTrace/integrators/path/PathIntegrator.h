@@ -28,6 +28,11 @@ namespace osgRayTrace::engine
 /// PhotonUse::Indirect: photons are stored if they met a surface before, and are looked up at G.
 /// The integrator samples lights at G and traces all paths up to G: light (S|glossy)* eye.
 ///
+/// In scenes with volumes a collision is no G: paths go on there, and look up the photons within
+/// media that met nothing but S, before they come to G. Photons so make up all paths light S+
+/// (collision) (collision|S)* eye as well, and light that a path meets from a collision by S+
+/// counts for nothing.
+///
 /// A path from light to eye has at most maxBounces edges beside the camera ray, with photons as
 /// well as without them: a photon is stored with the number of its edges, and a look-up admits the
 /// photons for which the camera path leaves enough edges.

@@ -81,7 +81,7 @@ void addEmission(Tile& tile, const PathBlock& block, const SurfaceLanes& surface
         const uint32_t light = traced.surfaces()[surface.instance[i]].light;
         if (light != kInvalid && traced.lights().areaLightPmf(light) > 0.0f)
         {
-            if (use == PhotonUse::Caustics && block.flagsOf(i).isOnCausticChain())
+            if (use != PhotonUse::None && block.flagsOf(i).isOnCausticChain())
                 continue; // photons carry it
             if (block.flagsOf(i).hasCollided() && block.pdfW[i] < kInfinity)
                 continue; // sampled along the ray that collided

@@ -46,7 +46,7 @@ void MediumWalk::findSegments(int step)
     _segments.ray = &ray;
     _segments.lanes = 0;
     _segments.eachLight = step == 0;
-    _segments.withMis = _collides && _use != PhotonUse::Indirect;
+    _segments.withMis = _collides && (_use != PhotonUse::Indirect || _causticsAlone);
     for (const int i : lanesIn(_open))
     {
         const MediumId body = bodyAt(i);
@@ -100,9 +100,9 @@ void MediumWalk::addPhotonBeams(int step)
     addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
 }
 
-/// Adds the light that photons bring to the first collision of a path with a dense medium.
-/// throughput: after the collision.
-void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput)
+/// Adds the light that photons bring to a collision of a path that has looked up none before.
+/// throughput: after the collision with a homogeneous medium, or before that with what is here.
+void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput, const Scatterers* here)
 {
     const PassContext& context = _tile.context;
     if (_use == PhotonUse::None || !context.volumePhotons || _block.flagsOf(i).hasTaken()) return;
@@ -113,7 +113,8 @@ void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput)
     query.medium = _segments.media[i];
     query.anisotropy = _media[query.medium].anisotropy;
     query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - _number);
-    const Vec3 radiance = throughput * context.volumePhotons->points.gather(query);
+    const PointMap& points = context.volumePhotons->points;
+    const Vec3 radiance = throughput * (here ? points.gather(query, *here) : points.gather(query));
     _tile.sums.add(_block.flagsOf(i), radiance);
     if (GatheredPhotons* gathered = _tile.result.photons.gathered)
         gathered->carried += luminance(radiance);
@@ -128,7 +129,7 @@ MediumWalk::End MediumWalk::travel(int i)
     const MediumRecord& medium = _media[_segments.media[i]];
     const float length = part.end - part.begin;
     const Vec3 throughput = laneOf(_block.throughput, i);
-    const bool beamsOnly = _use == PhotonUse::Indirect && !medium.isDense;
+    const bool beamsOnly = _use == PhotonUse::Indirect && !medium.isDense && !_causticsAlone;
     if (!medium.scatters || !_collides || beamsOnly)
     {
         setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
@@ -145,7 +146,7 @@ bool MediumWalk::survives(int i, Vec3 throughput)
 {
     ++_tile.counts.collisions;
     _collided |= 1u << i;
-    if (_use == PhotonUse::Indirect) return false; // photons have all other light
+    if (_use == PhotonUse::Indirect && !_causticsAlone) return false; // photons have all else
     if (++_collisions[i] > kMostCollisions)
     {
         ++_tile.counts.cutWalks;
@@ -164,6 +165,13 @@ bool MediumWalk::survives(int i, Vec3 throughput)
     return true;
 }
 
+PathFlags MediumWalk::flagsAfterCollision(int i) const
+{
+    const PathFlags path = _block.flagsOf(i);
+    if (_use == PhotonUse::None) return path.collided();
+    return _causticsAlone ? path.collidedAmongCaustics() : path.collidedAmongPhotons();
+}
+
 /// Scatters a path at a point of its ray, unless roulette ends it.
 MediumWalk::End MediumWalk::collide(int i, float distance)
 {
@@ -173,16 +181,14 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const RayBlock& ray = _block.rays.ray;
     const Vec3 before = directionOf(ray, i);
     const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    if (medium.isDense) addPhotonPoints(i, point, throughput);
+    if (medium.isDense || _causticsAlone) addPhotonPoints(i, point, throughput);
     const float found = collisionProbability(_tile.context, _segments, i);
     if (!survives(i, throughput)) return End::Dies;
     const Vec2 u = numbers.at(MediumPhase);
     const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.
     _block.pdfW[i] = found * evalPhase(medium.anisotropy, glm::dot(before, after));
-    const PathFlags path = _block.flagsOf(i);
-    _block.flags[i] =
-        (_use == PhotonUse::Caustics ? path.collidedAmongPhotons() : path.collided()).word();
+    _block.flags[i] = flagsAfterCollision(i).word();
     spawn(i, {point, 0.0f}, after);
     return End::GoesOn;
 }

@@ -26,6 +26,7 @@ public:
           _last(last),
           _use(use),
           _collides(number + 1 < tile.context.options.maxBounces),
+          _causticsAlone(_traced.traits().volumes),
           _open(block.active)
     {
         if (_traced.traits().volumes)
@@ -55,7 +56,8 @@ private:
     void findGrids(int i, Vec3 origin, float end);
     void addLight();
     void addPhotonBeams(int step);
-    void addPhotonPoints(int i, Vec3 point, Vec3 throughput);
+    void addPhotonPoints(int i, Vec3 point, Vec3 throughput, const Scatterers* here = nullptr);
+    PathFlags flagsAfterCollision(int i) const;
     End travel(int i);
     End travelGrids(int i, const GridRay& grids);
     End collide(int i, float distance);
@@ -88,6 +90,8 @@ private:
     const bool _last;     ///< rays find emission alone
     const PhotonUse _use; ///< of the photons that rays look up
     const bool _collides; ///< paths have an edge left for light behind a collision
+    /// Collisions look up photons that have met mirror-like surfaces alone, and find other light.
+    const bool _causticsAlone;
     LaneMask _open, _collided = 0;
     FloatLanes _begin; ///< where on the ray the stretch begins
     uint32_t _collisions[kLanes];

@@ -7,8 +7,6 @@ namespace osgRayTrace::engine
 
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits)
 {
-    // Photons do not meet volumes.
-    if (traits.volumes && photonUse(wanted) != PhotonUse::None) return IntegratorKind::Path;
     // Light that media emit comes with no photons: paths find it, before they look up any.
     if (traits.glowing && photonUse(wanted) == PhotonUse::Indirect) return IntegratorKind::Path;
     if (wanted != IntegratorKind::Automatic) return wanted;
@@ -16,7 +14,7 @@ IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits
     const bool caustics = (lights && (traits.specular || traits.transmission)) ||
                           ((traits.areaLights || traits.deltaLights) && traits.glossy);
     if (!traits.scattering && !traits.physical) return IntegratorKind::Whitted;
-    return caustics && !traits.volumes ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
+    return caustics ? IntegratorKind::PhotonCaustics : IntegratorKind::Path;
 }
 
 bool photonsAreOptional(IntegratorKind wanted, const SceneTraits& traits)
