@@ -41,6 +41,40 @@ struct Box
     long long height() const { return static_cast<long long>(maxY) - minY + 1; }
 };
 
+/// Types of attributes whose values OpenEXR reads without asking for their size.
+struct FixedSize
+{
+    const char* type;
+    std::int32_t bytes;
+};
+
+constexpr FixedSize kFixedSizes[] = {{"box2i", 16},
+                                     {"box2f", 16},
+                                     {"chromaticities", 32},
+                                     {"compression", 1},
+                                     {"deepImageState", 1},
+                                     {"double", 8},
+                                     {"envmap", 1},
+                                     {"float", 4},
+                                     {"int", 4},
+                                     {"keycode", 28},
+                                     {"lineOrder", 1},
+                                     {"m33d", 72},
+                                     {"m33f", 36},
+                                     {"m44d", 128},
+                                     {"m44f", 64},
+                                     {"rational", 8},
+                                     {"tiledesc", 9},
+                                     {"timecode", 8},
+                                     {"v2d", 16},
+                                     {"v2f", 8},
+                                     {"v2i", 8},
+                                     {"v3d", 24},
+                                     {"v3f", 12},
+                                     {"v3i", 12}};
+
+constexpr std::uint32_t kMaxPreviewSide = 1u << 14;
+
 struct Part
 {
     Box dataWindow;
@@ -127,9 +161,32 @@ private:
 
             const std::istream::pos_type value = _stream.tellg();
             if (size < 0 || size > _end - value) return kTruncated;
+            if (!hasSizeOf(type, size, value)) return "an attribute has another size than its type";
+            _stream.seekg(value);
             readValue(part, attribute, size);
             _stream.seekg(value + std::istream::off_type(size));
         }
+    }
+
+    /// Returns whether OpenEXR reads as many bytes of a value as the file says that it has. If not,
+    /// the next attribute begins in the middle of something, and may have any size.
+    bool hasSizeOf(const std::string& type, std::int32_t size, std::istream::pos_type value)
+    {
+        for (const FixedSize& fixed : kFixedSizes)
+            if (type == fixed.type) return size == fixed.bytes;
+        if (type == "chlist")
+        {
+            const std::istream::pos_type end = value + std::istream::off_type(size);
+            pixelBytes(end);
+            return _stream && _stream.tellg() == end;
+        }
+        if (type == "preview")
+        {
+            const std::uint32_t width = number(), height = number();
+            return size >= 8 && width <= kMaxPreviewSide && height <= kMaxPreviewSide &&
+                   8 + 4LL * width * height == size;
+        }
+        return true;
     }
 
     void readValue(Part& part, const std::string& attribute, std::int32_t size)
@@ -158,8 +215,8 @@ private:
         {
             const std::int32_t type = signedNumber();
             signedNumber();
-            const bool full = signedNumber() == 1 && signedNumber() == 1;
-            if (full) sum += type == kHalf ? 2 : 4;
+            const std::int32_t inX = signedNumber(), inY = signedNumber();
+            if (inX == 1 && inY == 1) sum += type == kHalf ? 2 : 4;
         }
         return sum;
     }

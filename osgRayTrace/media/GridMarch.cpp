@@ -14,9 +14,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The ambient and the diffuse part of the shaders' light, whatever the light's own colour is.
-constexpr float kAmbient = 0.1f, kDiffuse = 0.9f;
-
 /// The way of a ray through the image's unit cube.
 struct March
 {
@@ -25,25 +22,6 @@ struct March
     Vec3 lightDirection; ///< of lit volumes
     float gradientStep;  ///< between the values of a gradient
 };
-
-/// Returns the factor of the colour at a point by the gradient of values there.
-float lightScale(const March& march, Vec3 p)
-{
-    const VolumeImage& image = *march.volume.image;
-    Vec3 gradient;
-    for (int k = 0; k < 3; ++k)
-    {
-        Vec3 d(0.0f);
-        d[k] = march.gradientStep;
-        gradient[k] = volumeValue(image, p + d) - volumeValue(image, p - d);
-    }
-    // A vector of tiny values would have no length in floats.
-    const float largest =
-        std::max(std::fabs(gradient.x), std::max(std::fabs(gradient.y), std::fabs(gradient.z)));
-    if (!(largest > 0.0f) || !(largest < kInfinity)) return 1.0f;
-    const float cosine = glm::dot(glm::normalize(gradient / largest), march.lightDirection);
-    return kAmbient + kDiffuse * std::max(0.0f, cosine);
-}
 
 /// Returns the number of steps of so many lengths, within bounds.
 int stepCount(float length, float step, int most)
@@ -58,13 +36,11 @@ void marchCells(March march, MarchedVolume& result)
     const Volume& volume = march.volume;
     const VolumeImage& image = *volume.image;
     const Vec3 cell = 1.0f / Vec3(Vec3d(image.width, image.height, image.depth));
-    const float smallest = std::min(cell.x, std::min(cell.y, cell.z));
     constexpr int kMostSteps = 8192;
-    const int count = stepCount(glm::length(march.to - march.from),
-                                smallest / std::max(volume.sampleRatio, 1e-3f), kMostSteps);
+    const int count = stepCount(glm::length(march.to - march.from), cellStep(volume), kMostSteps);
     const Vec3 step = (march.to - march.from) / static_cast<float>(count - 1);
     const float scale = std::min(1.0f, 1.73f * glm::length(step) / glm::length(cell));
-    march.gradientStep = glm::length(step);
+    march.gradientStep = gradientStep(volume, glm::length(step));
     float left = 1.0f;
     constexpr float kCutoff = 1.0f / 256.0f;
     Vec3 p = march.from, sum(0.0f);
@@ -75,7 +51,9 @@ void marchCells(March march, MarchedVolume& result)
         const float alpha = std::clamp(point.opacity * volume.transparency, 0.0f, 1.0f);
         if (!(alpha > 0.0f)) continue;
         const float behind = left * std::pow(1.0f - alpha, scale);
-        const Vec3 color = volume.lit ? point.color * lightScale(march, p) : point.color;
+        const Vec3 color = volume.lit ? point.color * lightScale(image, p, march.gradientStep,
+                                                                 march.lightDirection)
+                                      : point.color;
         sum += color * (left - behind);
         left = behind;
     }
@@ -91,7 +69,7 @@ void marchSamples(March march, MarchedVolume& result)
     const int count = stepCount(glm::length(march.to - march.from),
                                 std::max(volume.sampleLength, 1e-6f), kMostSteps);
     const Vec3 step = (march.from - march.to) / static_cast<float>(count - 1);
-    march.gradientStep = 1.0f / 512.0f;
+    march.gradientStep = gradientStep(volume, 0.0f);
     Vec3 p = march.to, color(0.0f);
     float sum = 0.0f;
     for (int k = 0; k < count; ++k, p += step)
@@ -99,7 +77,10 @@ void marchSamples(March march, MarchedVolume& result)
         const Voxel voxel = voxelAt(*volume.image, p);
         Vec4 here(voxel.color, voxel.value);
         if (!volume.transfer.empty()) here = transferred(volume, voxel.value);
-        if (volume.lit) here = Vec4(Vec3(here) * lightScale(march, p), here.w);
+        if (volume.lit)
+            here = Vec4(Vec3(here) *
+                            lightScale(*volume.image, p, march.gradientStep, march.lightDirection),
+                        here.w);
         here.w = std::clamp(here.w, 0.0f, 1.0f); // as in textures of OpenGL
         const float alpha = std::clamp(here.w * volume.transparency, 0.0f, 1.0f);
         if (alpha > volume.cutoff)
@@ -133,15 +114,7 @@ MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float b
     March way{*grid.volume, transformPoint(grid.imageFromEngine, origin + direction * part.begin),
               transformPoint(grid.imageFromEngine, exit), Vec3(0.0f), 0.0f};
     if (!isFinite(way.from) || !isFinite(way.to)) return result; // the box is too small for floats
-    if (grid.volume->lit)
-    {
-        // In the space of the tile's cube, as gl_ModelViewMatrixInverse leads to.
-        const Vec3 towards = light.isFar ? grid.tileFromEngine.linear * light.direction
-                                         : transformPoint(grid.tileFromEngine, light.position) -
-                                               transformPoint(grid.tileFromEngine, exit);
-        const float length = glm::length(towards);
-        if (length > 0.0f) way.lightDirection = towards / length;
-    }
+    if (grid.volume->lit) way.lightDirection = litDirection(grid, light, exit);
     result.begin = part.begin;
     if (grid.volume->law == VolumeLaw::Samples)
         marchSamples(way, result);

@@ -6,18 +6,10 @@
 // (VolumeLaw::Samples) of OpenSceneGraph 3.6.5.
 #pragma once
 
-#include "osgRayTrace/media/GridTable.h"
+#include "osgRayTrace/media/VolumeLighting.h"
 
 namespace osgRayTrace::engine
 {
-
-/// The light that lights volumes which are lit: OpenGL's light 0.
-struct VolumeLight
-{
-    bool isFar = true;    ///< directional
-    Vec3 direction{0.0f}; ///< in which light travels, if it is far [engine space]
-    Vec3 position{0.0f};  ///< otherwise
-};
 
 /// What a volume puts before what is behind it: color + (1 - opacity) * behind.
 struct MarchedVolume

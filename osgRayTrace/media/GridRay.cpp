@@ -257,6 +257,17 @@ void GridRay::setAround(const MediumRecord& medium, RayPart part)
     _extent = {std::min(_extent.begin, part.begin), std::max(_extent.end, part.end)};
 }
 
+void GridRay::setLight(const VolumeLight& light)
+{
+    _isLit = true;
+    for (int i = 0; i < _count; ++i)
+    {
+        const auto k = static_cast<std::size_t>(i);
+        _litDirections[k] =
+            litDirection((*_table)[_spans[k].grid], light, pointAt(_spans[k].part.end));
+    }
+}
+
 bool GridRay::scatters() const
 {
     for (int i = 0; i < _count; ++i)
@@ -275,14 +286,18 @@ GridRay::Coefficients GridRay::at(float distance, bool withEmission) const
         const RayPart& part = _spans[k].part;
         if (!(distance >= part.begin && distance <= part.end)) continue;
         const GridRecord& grid = (*_table)[_spans[k].grid];
-        const VolumePoint point =
-            volumePoint(*grid.volume, transformPoint(grid.imageFromEngine, pointAt(distance)));
-        const float amount = amountOf(*grid.volume, point.opacity);
+        const Volume& volume = *grid.volume;
+        const Vec3 place = transformPoint(grid.imageFromEngine, pointAt(distance));
+        const VolumePoint point = volumePoint(volume, place);
+        const float amount = amountOf(volume, point.opacity);
         if (!(amount > 0.0f)) continue;
         sum.sigmaT += _extinctions[k] * amount;
         if (!withEmission) continue;
-        const bool glows = grid.volume->law != VolumeLaw::Density;
-        const Vec3 tint = grid.volume->law == VolumeLaw::Samples ? grid.volume->tint : Vec3(1.0f);
+        const bool glows = volume.law != VolumeLaw::Density;
+        Vec3 tint = volume.law == VolumeLaw::Samples ? volume.tint : Vec3(1.0f);
+        if (_isLit && glows && volume.lit)
+            tint *= lightScale(*volume.image, place, gradientStep(volume, cellStep(volume)),
+                               _litDirections[k]);
         sum.emission += (glows ? _extinctions[k] : grid.emission) * amount *
                         glm::clamp(point.color * tint, 0.0f, kBrightest);
     }

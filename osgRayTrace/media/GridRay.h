@@ -12,7 +12,7 @@
 // heuristic over the channels, F_c / sum of p F [Miller19, sect. 5].
 #pragma once
 
-#include "osgRayTrace/media/GridTable.h"
+#include "osgRayTrace/media/VolumeLighting.h"
 #include "osgRayTrace/sampling/Hash.h"
 
 #include <array>
@@ -104,6 +104,9 @@ public:
     /// Adds the homogeneous medium that fills a part of the ray.
     void setAround(const MediumRecord& medium, RayPart part);
 
+    /// Has the colours of volumes that are lit be lit by a light. Without it they are as they are.
+    void setLight(const VolumeLight& light);
+
     /// Returns whether no volume is on the ray.
     bool isEmpty() const { return _count == 0; }
     /// Returns the part of the ray that anything fills.
@@ -141,6 +144,8 @@ private:
     Vec3 _origin, _direction;
     std::array<GridSpan, kMostVolumes> _spans;
     std::array<Vec3, kMostVolumes> _extinctions; ///< at an amount of 1
+    std::array<Vec3, kMostVolumes> _litDirections;
+    bool _isLit = false; ///< whether the latter are set
     int _count = 0;
     const MediumRecord* _around = nullptr;
     RayPart _aroundPart, _extent;

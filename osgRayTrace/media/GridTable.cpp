@@ -115,6 +115,7 @@ GridTable::GridTable(const Scene& scene, const GridTable* previous, const Scene*
             record.blocks = GridBlocks::of(volume, values);
             ++_builtBlocks;
         }
+        _isLit = _isLit || (volume.lit && volume.law != VolumeLaw::Density);
         _records.push_back(std::move(record));
     }
 }

@@ -54,12 +54,16 @@ public:
     std::size_t builtValues() const { return _builtValues; }
     std::size_t builtBlocks() const { return _builtBlocks; }
 
+    /// Returns whether a volume glows in colours that a light lights: see VolumeLighting.h.
+    bool isLit() const { return _isLit; }
+
     /// Widens a box [engine space] by the boxes of the volumes.
     void widen(Vec3& low, Vec3& high) const;
 
 private:
     std::vector<GridRecord> _records;
     std::size_t _builtValues = 0, _builtBlocks = 0;
+    bool _isLit = false;
 };
 
 } // namespace osgRayTrace::engine

@@ -3,6 +3,7 @@
 #include "osgRayTrace/media/MediumTable.h"
 
 #include "osgRayTrace/media/PhaseFunction.h"
+#include "osgRayTrace/scene/Bodies.h"
 #include "osgRayTrace/scene/FogMedium.h"
 
 #include <algorithm>
@@ -38,14 +39,6 @@ MediumRecord recordOf(const Medium& medium, float unit)
     record.emits = record.emission != Vec3(0.0f);
     record.isClear = record.sigmaT == Vec3(0.0f) && !record.emits;
     return record;
-}
-
-/// Returns whether the surfaces of a material enclose bodies that light can enter.
-bool enclosesBody(const Material& m)
-{
-    if (m.model != MaterialModel::Physical || m.metallic >= 1.0f || isInvisible(m)) return false;
-    if (m.detail && m.detail->thinWalled) return false;
-    return m.transmission > 0.0f || (m.detail && m.detail->diffuseTransmission > 0.0f);
 }
 
 } // namespace

@@ -208,8 +208,15 @@ TEST_CASE("reasons: edits of state", "[bridge]")
                 new osg::PolygonOffset(-1.0f, -1.0f));
         },
         ConversionCause::StateEffects, "root/group/object1/tile");
-    reasons.converts([&] { graph.objects[1]->setMatrix(osg::Matrixd::translate(0.0, 0.0, 0.5)); },
-                     ConversionCause::NotAlone, "root/group/object1/tile");
+    reasons.isPatched([&] { graph.objects[1]->setMatrix(osg::Matrixd::translate(0.0, 0.0, 0.5)); });
+    reasons.converts(
+        [&] {
+            reasons.twice->getStateSet()->setAttributeAndModes(
+                new osg::PolygonOffset(-1.0f, -1.0f));
+        },
+        ConversionCause::StateEffects, "root/holder/twice/Geometry");
+    reasons.converts([&] { reasons.twice->setMatrix(osg::Matrixd::translate(0.0, 0.0, 0.5)); },
+                     ConversionCause::NotAlone, "root/holder/twice/Geometry");
     reasons.isPatched(
         [&] { graph.objects[2]->getStateSet()->setAttributeAndModes(new osg::CullFace); });
     reasons.converts([&] { graph.objects[2]->setMatrix(osg::Matrixd::scale(-1.0, 1.0, 1.0)); },

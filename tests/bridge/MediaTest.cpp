@@ -12,6 +12,7 @@
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/Fog>
+#include <osg/ShapeDrawable>
 
 #include <cmath>
 #include <limits>
@@ -66,6 +67,39 @@ TEST_CASE("medium: coefficients from colours, and values that are refused", "[br
     CHECK(medium->getScattering().y() == 1.0f);
     CHECK(medium->compare(*medium) == 0);
     CHECK(medium->compare(*hazeMedium()) == -hazeMedium()->compare(*medium));
+}
+
+TEST_CASE("medium: bodies that are open are named", "[bridge]")
+{
+    float metallic = 0.0f;
+    const auto openBodies =
+        [&](const osg::ref_ptr<osg::ShapeDrawable>& drawable, float transmission)
+    {
+        const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
+        physical->setMetallic(metallic);
+        physical->setTransmission(transmission);
+        physical->setInterior(hazeMedium());
+        drawable->getOrCreateStateSet()->setAttribute(physical);
+        const ConversionResult result = convertGraph(drawable);
+        const auto found = result.counts.find("warned.open-body");
+        return found == result.counts.end() ? uint64_t(0) : found->second;
+    };
+    const osg::Vec3 place(3.0f, -2.0f, 7.0f);
+    for (const osg::ref_ptr<osg::Shape>& shape : std::vector<osg::ref_ptr<osg::Shape>>{
+             new osg::Box(place, 2.0f), new osg::Sphere(place, 1.0f),
+             new osg::Cylinder(place, 1.0f, 2.0f), new osg::Cone(place, 1.0f, 2.0f),
+             new osg::Capsule(place, 1.0f, 2.0f)})
+    {
+        CAPTURE(shape->className());
+        CHECK(openBodies(new osg::ShapeDrawable(shape), 1.0f) == 0);
+    }
+    const osg::ref_ptr<osg::TessellationHints> noTop = new osg::TessellationHints;
+    noTop->setCreateTop(false);
+    const osg::ref_ptr<osg::Shape> cylinder = new osg::Cylinder(place, 1.0f, 2.0f);
+    CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 1.0f) == 1);
+    CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 0.0f) == 0);
+    metallic = 1.0f;
+    CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 1.0f) == 0);
 }
 
 TEST_CASE("medium: the interior of a material, in place of its attenuation", "[bridge]")

@@ -94,7 +94,6 @@ TEST_CASE("volume tiles: what cannot be traced is left to OSG by name", "[bridge
     const Edit edits[] = {
         [](osgVolume::VolumeTile& t)
         { addProperty(t, new osgVolume::MaximumIntensityProjectionProperty); },
-        [](osgVolume::VolumeTile& t) { addProperty(t, new osgVolume::IsoSurfaceProperty(0.5f)); },
         [](osgVolume::VolumeTile& t) { t.setVolumeTechnique(nullptr); },
         [](osgVolume::VolumeTile& t) { t.addChild(triangleGeometry()); },
         [](osgVolume::VolumeTile& t) { t.setLayer(new osgVolume::CompositeLayer); },

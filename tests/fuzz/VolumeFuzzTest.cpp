@@ -87,6 +87,7 @@ osg::ref_ptr<osgVolume::VolumeTile> randomTile(Dice& dice)
     if (dice.oneIn(3)) addProperty(*tile, new osgVolume::SampleRatioProperty(strangeValue(dice)));
     if (dice.oneIn(3)) addProperty(*tile, new osgVolume::SampleDensityProperty(strangeValue(dice)));
     if (dice.oneIn(3)) addProperty(*tile, new osgVolume::LightingProperty);
+    if (dice.oneIn(4)) addProperty(*tile, new osgVolume::IsoSurfaceProperty(strangeValue(dice)));
     if (dice.oneIn(2))
     {
         const osg::ref_ptr<osgRayTrace::Medium> medium = new osgRayTrace::Medium;

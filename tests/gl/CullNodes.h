@@ -131,7 +131,9 @@ public:
     META_StateAttribute(application, VirtualProgram, PROGRAM);
     int compare(const osg::StateAttribute& other) const override
     {
-        COMPARE_StateAttribute_Types(VirtualProgram, other) return 0;
+        COMPARE_StateAttribute_Types(VirtualProgram, other);
+        static_cast<void>(rhs);
+        return 0;
     }
     void apply(osg::State& state) const override
     {

@@ -95,9 +95,7 @@ TEST_CASE("volume match: gradients that a light lights", "[gl][coverage]")
 {
     const auto tile = tileOf(ballImage(32), blueToYellow(), multipass(), leaningBox());
     addProperty(*tile, new osgVolume::LightingProperty);
-    Statistics statistics;
-    CHECK(looksAlike("volume-lit", tile, statistics));
-    CHECK(statistics.conversion["approximated.volume-light"] == 1);
+    CHECK(looksAlike("volume-lit", tile));
 }
 
 TEST_CASE("volume match: samples of a ray", "[gl][coverage]")
@@ -117,4 +115,42 @@ TEST_CASE("volume match: what is left to OSG looks as OSG draws it", "[gl][cover
     CHECK(looksAlike("volume-projection", tile, statistics));
     CHECK(statistics.conversion["rasterized.volume"] == 1);
     CHECK(statistics.conversion.count("converted.volume") == 0);
+}
+
+TEST_CASE("volume match: isosurfaces", "[gl][coverage]")
+{
+    // osgVolume's shaders light by 0.1 + 0.9 n * l whatever the light is; the viewer's has 0.8.
+    const auto looksAlikeInLight =
+        [](const std::string& name, const osg::ref_ptr<osgVolume::VolumeTile>& tile)
+    {
+        MatchSetup setup;
+        setup.samples = 3;
+        setup.settings = [](RayTraceSettings& settings)
+        { settings.setIntegrator(RayTraceSettings::WHITTED); };
+        setup.view = [](TestViewer& view)
+        { view.viewer.getLight()->setDiffuse(osg::Vec4(0.9f, 0.9f, 0.9f, 1.0f)); };
+        Statistics statistics;
+        const Comparison comparison = match(name, sceneOf(tile), setup, &statistics);
+        CHECK(comparison.both > 1000);
+        CHECK(statistics.conversion["converted.isosurface"] == 1);
+        CHECK(statistics.conversion.count("rasterized.volume") == 0);
+        return comparison.difference < 2.0;
+    };
+    // They also light in the space of the cube, where angles are those of a box that is a cube.
+    const osg::Matrixd evenBox = osg::Matrixd::translate(-0.5, -0.5, -0.5) *
+                                 osg::Matrixd::scale(5.0, 5.0, 5.0) *
+                                 osg::Matrixd::rotate(0.6, osg::Vec3d(1, 0.4, 0.2));
+    const osg::ref_ptr<osg::TransferFunction1D> opaque = new osg::TransferFunction1D;
+    opaque->setColor(0.0f, osg::Vec4(0.1f, 0.2f, 0.9f, 1.0f));
+    opaque->setColor(1.0f, osg::Vec4(1.0f, 0.9f, 0.1f, 1.0f));
+    const auto white = tileOf(ballImage(32), nullptr, multipass(), evenBox);
+    addProperty(*white, new osgVolume::IsoSurfaceProperty(0.2f));
+    CHECK(looksAlikeInLight("iso-white", white));
+    const auto colored = tileOf(ballImage(32), opaque, multipass(), evenBox);
+    addProperty(*colored, new osgVolume::IsoSurfaceProperty(0.3f));
+    CHECK(looksAlikeInLight("iso-transfer", colored));
+    const auto sampled = tileOf(ballImage(32), opaque, new osgVolume::RayTracedTechnique, evenBox);
+    addProperty(*sampled, new osgVolume::IsoSurfaceProperty(0.3f));
+    addProperty(*sampled, new osgVolume::SampleDensityProperty(0.005f));
+    CHECK(looksAlikeInLight("iso-samples", sampled));
 }

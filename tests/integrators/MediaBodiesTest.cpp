@@ -8,15 +8,6 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-void addSky(SceneBuilder& builder, float radiance = 1.0f)
-{
-    Light sky;
-    sky.kind = LightKind::Environment;
-    sky.radiance = Vec3(radiance);
-    sky.environment.image = newEnvironment(4, 2, Vec3(1.0f));
-    builder.addLight(sky);
-}
-
 /// Returns the mean radiance of a ball of radius 1 over its disc, seen from far away.
 Estimate discOf(const SceneBuilder& builder, int bounces, int passes)
 {

@@ -38,6 +38,33 @@ inline void setAtmosphere(SceneBuilder& builder, const Medium& medium, float rad
     builder.scene->atmosphere = std::make_shared<Atmosphere>(atmosphere);
 }
 
+/// Adds a sky that is white, or so bright.
+inline void addSky(SceneBuilder& builder, float radiance = 1.0f)
+{
+    Light sky;
+    sky.kind = LightKind::Environment;
+    sky.radiance = Vec3(radiance);
+    sky.environment.image = newEnvironment(4, 2, Vec3(1.0f));
+    builder.addLight(sky);
+}
+
+/// Adds a sky that is white on one half of all directions.
+inline void addHalfSky(SceneBuilder& builder, bool above)
+{
+    Light sky;
+    sky.kind = LightKind::Environment;
+    sky.radiance = Vec3(1.0f);
+    sky.environment.image = newEnvironment(
+        16, 8, [above](Vec3d d) { return Vec3((d.z > 0.0) == above ? 1.0f : 0.0f); });
+    builder.addLight(sky);
+}
+
+/// Returns a narrow view along the x axis, forwards or back.
+inline View alongX(double from, double towards = 1.0)
+{
+    return perspectiveView({from, 0.1, 0.2}, {from + towards, 0.1, 0.2}, {0, 0, 1}, 1e-3, 4, 4);
+}
+
 /// Returns a view of one direction: a patch of the given side seen along -normal.
 inline View alongRay(Vec3d centre, Vec3d normal, int pixels = 4)
 {

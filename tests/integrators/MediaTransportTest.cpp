@@ -8,50 +8,10 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Adds a sky that is white on one half of all directions.
-void addHalfSky(SceneBuilder& builder, bool above)
-{
-    Light sky;
-    sky.kind = LightKind::Environment;
-    sky.radiance = Vec3(1.0f);
-    sky.environment.image = newEnvironment(
-        16, 8, [above](Vec3d d) { return Vec3((d.z > 0.0) == above ? 1.0f : 0.0f); });
-    builder.addLight(sky);
-}
-
 /// Adds a wall that shines with radiance 1 towards -x.
 void addShiningWall(SceneBuilder& builder, float x)
 {
     builder.add(quadMesh({x, -9, -9}, {0, 0, 18}, {0, 18, 0}), lamp(Vec3(1.0f)));
-}
-
-View alongX(double from)
-{
-    return perspectiveView({from, 0.1, 0.2}, {from + 1, 0.1, 0.2}, {0, 0, 1}, 1e-3, 4, 4);
-}
-
-/// Returns a body of the shape of an L, which is not convex: two boxes that share a face, without
-/// this face.
-std::shared_ptr<Mesh> angle()
-{
-    const Vec2 outline[] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-    std::vector<Vec3> positions;
-    for (const float z : {0.0f, 1.0f})
-        for (const Vec2& p : outline)
-            positions.push_back(Vec3(p.x - 0.8f, p.y - 0.8f, z - 0.5f));
-    std::vector<UVec3> triangles;
-    for (uint32_t k = 0; k < 6; ++k)
-    {
-        const uint32_t next = (k + 1) % 6;
-        triangles.push_back({k, next, next + 6});
-        triangles.push_back({k, next + 6, k + 6});
-    }
-    for (const UVec3& t : {UVec3(0, 1, 2), UVec3(0, 2, 3), UVec3(0, 3, 4), UVec3(0, 4, 5)})
-    {
-        triangles.push_back({t.x, t.z, t.y});
-        triangles.push_back({t.x + 6, t.y + 6, t.z + 6});
-    }
-    return newMesh(positions, triangles);
 }
 
 } // namespace
@@ -82,40 +42,6 @@ TEST_CASE("media: reflectance and transmittance of slabs", "[integrators][statis
             CAPTURE(c.depth, c.albedo, c.g, above, seen.mean(), seen.standardError());
             CHECK(seen.agrees(above ? c.reflected : c.transmitted, 2e-4));
         }
-}
-
-TEST_CASE("media: what a body emits comes out, however it scatters",
-          "[integrators][statistics][media]")
-{
-    // The flux through all parallel projections is the emission per length times the volume.
-    const std::pair<std::shared_ptr<Mesh>, double> bodies[] = {
-        {boxMesh({-0.5f, -0.8f, -0.3f}, {0.5f, 0.8f, 0.3f}), 0.96}, {angle(), 3.0}};
-    for (const auto& [mesh, volume] : bodies)
-        for (const float ior : {1.0f, 1.5f})
-            for (const float g : {0.0f, 0.7f})
-            {
-                Medium medium = mediumOf(4.0f, 1.0f, g);
-                medium.emission = Vec3(1.0f);
-                SceneBuilder builder;
-                builder.add(mesh, bodyOf(medium, ior));
-                const auto traced = builder.build();
-                Uniform random(5);
-                Estimate flux;
-                for (uint32_t k = 0; k < 128; ++k)
-                {
-                    const double z = random.between(-1.0, 1.0);
-                    const double turn = random.between(0.0, 6.283185307);
-                    const double across = std::sqrt(1.0 - z * z);
-                    const Vec3d towards(across * std::cos(turn), across * std::sin(turn), z);
-                    const double side = 4.4;
-                    const Picture picture = render(traced, patchView(Vec3d(0.0), towards, side, 32),
-                                                   optionsOf(IntegratorKind::Path, 64, k), 1);
-                    flux.add(double(picture.mean().y) * side * side);
-                }
-                CAPTURE(volume, ior, g, flux.mean(), flux.standardError());
-                CHECK(flux.agrees(volume, 2e-3 * volume));
-                CHECK(flux.standardError() < 0.05 * volume);
-            }
 }
 
 TEST_CASE("media: bodies that overlap, from outside and from within", "[integrators][media]")

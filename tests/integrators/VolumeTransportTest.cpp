@@ -266,6 +266,79 @@ TEST_CASE("volumes: what glows shows its colour by its optical depth",
               Approx(color[c] * (1.0 - marched) * (1.0 - marched) + 0.5 * marched).epsilon(1e-4));
 }
 
+TEST_CASE("volumes: what is lit by its gradient has the light of Whitted's steps",
+          "[integrators][statistics][volumes]")
+{
+    // The tile is the middle of its image, whose values rise along x: the gradient is (1, 0, 0).
+    SceneBuilder builder;
+    Volume volume = densityIn({-0.25f, -0.25f, -0.25f}, {1.25f, 1.25f, 1.25f}, ramp(24), {});
+    volume.tileFromEngine = cubeFromBox({0, 0, 0}, {1, 1, 1});
+    makeEven(volume, Vec4(0.9f, 0.6f, 0.2f, 0.03f));
+    volume.lit = true;
+    volume.law = VolumeLaw::Samples;
+    volume.sampleLength = 0.002f;
+    builder.scene->volumes.push_back(volume);
+    Light light;
+    light.kind = LightKind::Directional;
+    light.number = 0;
+    for (const float angle : {0.0f, 1.0f, 2.5f}) // light that comes from below, and from above
+    {
+        light.direction = Vec3(std::cos(angle), std::sin(angle), 0.0f);
+        light.diffuse = Vec3(0.3f); // osgVolume's shaders do not look at it
+        builder.scene->lights = {light};
+        const double scale = 0.1 + 0.9 * std::max(0.0f, std::cos(angle));
+        const double length = 1.0 / 1.5 / 0.002; // samples on the way
+        const double opacity = 1.0 - std::pow(0.97, length);
+        const auto traced = builder.build();
+        const auto seen = measureChannels(traced, alongX(), optionsOf(IntegratorKind::Path), 16);
+        const Vec3 whitted = render(traced, alongX(), optionsOf(IntegratorKind::Whitted), 1).mean();
+        const Vec3d color(0.9, 0.6, 0.2);
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+            CAPTURE(angle, c, seen[c].mean(), whitted[int(c)]);
+            CHECK(seen[c].agrees(color[int(c)] * scale * opacity, 1e-4));
+            CHECK(seen[c].agrees(double(whitted[int(c)]), 2e-3));
+        }
+    }
+}
+
+TEST_CASE("volumes: a lit ball looks the same by paths and by Whitted's steps",
+          "[integrators][statistics][volumes]")
+{
+    SceneBuilder builder;
+    const auto ball = newVolumeImage(16, 16, 16,
+                                     [](int x, int y, int z)
+                                     {
+                                         const Vec3 p = Vec3(Vec3d(x, y, z)) - 7.5f;
+                                         return std::max(0.0f, 1.0f - glm::length(p) / 7.0f);
+                                     });
+    Volume volume = densityIn({0, 0, 0}, {1, 1, 1}, ball, {});
+    volume.law = VolumeLaw::Cells;
+    volume.transfer = {Vec4(0.9f, 0.6f, 0.2f, 0.9f), Vec4(0.9f, 0.6f, 0.2f, 0.9f)};
+    volume.transferScale = 0.0f;
+    volume.transferOffset = 0.5f;
+    volume.cutoff = 0.3f; // a ball with a border, nearly opaque within a few cells
+    volume.sampleRatio = 4.0f;
+    volume.lit = true;
+    builder.scene->volumes.push_back(volume);
+    for (const bool isFar : {true, false})
+    {
+        Light light;
+        light.kind = isFar ? LightKind::Directional : LightKind::Point;
+        light.number = 0;
+        light.direction = glm::normalize(Vec3(1.0f, 0.5f, -0.7f));
+        light.position = Vec3(4.0f, 3.0f, 1.0f);
+        builder.scene->lights = {light};
+        const auto traced = builder.build();
+        const View view = perspectiveView({-3, 0.5, 0.5}, {0, 0.5, 0.5}, {0, 0, 1}, 16, 12, 12);
+        const auto seen = measureChannels(traced, view, optionsOf(IntegratorKind::Path), 16);
+        const Vec3 whitted = render(traced, view, optionsOf(IntegratorKind::Whitted), 64).mean();
+        CAPTURE(isFar, seen[0].mean(), whitted.x, seen[0].standardError());
+        CHECK(std::abs(seen[0].mean() - double(whitted.x)) < 0.03 * double(whitted.x));
+        CHECK(seen[0].standardError() < 0.003 * seen[0].mean());
+    }
+}
+
 TEST_CASE("volumes: emission of a density, with and without extinction",
           "[integrators][statistics][volumes]")
 {

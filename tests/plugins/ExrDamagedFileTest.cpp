@@ -96,3 +96,27 @@ TEST_CASE("exr: a size that the file cannot hold is refused before memory is tak
     ExrImage image;
     REQUIRE(readExr(unchanged, image).empty());
 }
+
+TEST_CASE("exr: an attribute of another size than its type's is refused", "[exr]")
+{
+    std::ostringstream whole;
+    REQUIRE(writeExr(whole, makeExrImage(4, 4, {"Y"})).empty());
+    // OpenEXR reads the four bytes of a float whatever their number is, and goes on behind them.
+    const std::string name = std::string("pixelAspectRatio") + '\0' + "float" + '\0';
+    for (const int size : {0, 3, 5, 8})
+    {
+        std::string bytes = whole.str();
+        const std::size_t at = bytes.find(name) + name.size();
+        bytes[at] = static_cast<char>(size);
+        std::istringstream stream(bytes);
+        ExrImage image;
+        CAPTURE(size);
+        CHECK_THAT(readExr(stream, image), Catch::Contains("another size than its type"));
+    }
+    std::string channels = whole.str();
+    const std::string list = std::string("channels") + '\0' + "chlist" + '\0';
+    ++channels[channels.find(list) + list.size()];
+    std::istringstream stream(channels);
+    ExrImage image;
+    CHECK_THAT(readExr(stream, image), Catch::Contains("another size than its type"));
+}

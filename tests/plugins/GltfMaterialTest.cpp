@@ -28,7 +28,7 @@ Json modelOf(const std::string& material)
     Json model = triangleModel();
     attributesOf(model)["NORMAL"] =
         addAccessor<float>(model, {0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
-    model["materials"] = {Json::parse(material)};
+    model["materials"] = Json::array({Json::parse(material)});
     model["meshes"][0]["primitives"][0]["material"] = 0;
     model["images"] = {{{"uri", std::string("data:image/png;base64,") + kPixel}}};
     model["textures"] = Json::parse(R"([{ "source": 0 }, { "source": 0, "sampler": 0 }])");

@@ -22,7 +22,7 @@ osg::ref_ptr<const osg::Image> imageOf(Json model, const Json& image,
                                        const std::string& folder = "")
 {
     model["extensionsUsed"] = {"EXT_texture_webp"};
-    model["images"] = {image};
+    model["images"] = Json::array({image});
     model["textures"] =
         Json::parse(R"([{ "extensions": { "EXT_texture_webp": { "source": 0 } } }])");
     model["materials"] =

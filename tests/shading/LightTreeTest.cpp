@@ -35,7 +35,8 @@ std::vector<Lamp> lamps(int count, bool hanging, uint32_t seed)
     std::vector<Lamp> result;
     for (int i = 0; i < count; ++i)
     {
-        const Vec3d centre(random.between(-10, 10), random.between(-10, 10), random.between(2, 6));
+        const double z = random.between(2, 6), y = random.between(-10, 10);
+        const Vec3d centre(random.between(-10, 10), y, z);
         const Vec3d normal = hanging ? Vec3d(0, 0, -1) : directionOf(random);
         const Vec3d across = glm::normalize(glm::cross(normal, Vec3d(0.6, 0.8, 0.1)));
         const double half = 0.5 * random.between(0.05, 0.3);

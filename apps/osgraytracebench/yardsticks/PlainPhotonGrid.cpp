@@ -60,7 +60,7 @@ PlainPhotonGrid::PlainPhotonGrid(const std::vector<Photon>& photons, float cellS
 }
 
 OSGRAYTRACE_KERNEL
-PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
+PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
 {
     const PhotonQuery q = query;
     const Vec3 at = q.position - _low;
@@ -102,6 +102,12 @@ PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
                 }
             }
     return sum;
+}
+
+// Before version 18, Clang gives the versions of a function a name that no other file knows.
+PhotonSum PlainPhotonGrid::gather(const PhotonQuery& query) const
+{
+    return gatherFrom(query);
 }
 
 } // namespace osgRayTrace::bench

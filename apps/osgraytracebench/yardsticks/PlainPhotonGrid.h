@@ -24,6 +24,7 @@ public:
 
 private:
     uint32_t bucketOf(int x, int y, int z) const;
+    engine::PhotonSum gatherFrom(const engine::PhotonQuery& query) const;
 
     engine::Vec3 _low{0.0f};
     float _cellsPerUnit = 0.0f;

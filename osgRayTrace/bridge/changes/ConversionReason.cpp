@@ -57,9 +57,9 @@ constexpr CauseText kTexts[] = {
     {ConversionCause::NodeMask, "a node mask hides other nodes than before from some of the views"},
     {ConversionCause::MaterialFile, "state has changed or nodes came while a material file is set"},
     {ConversionCause::OtherPaths, "the paths to a geometry are not those of the last conversion"},
-    {ConversionCause::NotAlone,
-     "a geometry was converted for the place it is in: a polygon offset, clip planes, "
-     "or a node of a class that is not known above it"},
+    {ConversionCause::NotAlone, "a geometry was converted for the place it is in: a polygon offset "
+                                "of one of several uses, clip "
+                                "planes, or a node of a class that is not known above it"},
     {ConversionCause::NotAnInstance, "a geometry is not traced, or not as instances of one mesh"},
     {ConversionCause::StateEffects, "state has changed that decides on more than the material"},
     {ConversionCause::CurrentColor,

@@ -44,6 +44,7 @@ constexpr ReportReason kReportReasons[] = {
     {"converted.line", "line segments, traced as capsules"},
     {"converted.culled", "uses of drawables that a cull traversal places or gives their state"},
     {"converted.volume", "osgVolume's tiles"},
+    {"converted.isosurface", "isosurfaces of osgVolume's tiles, traced as meshes"},
     {"converted.light", "lights of the scene"},
     {"converted.area-light", "area lights among them"},
     {"converted.environment-light", "the environment light"},
@@ -75,8 +76,7 @@ constexpr ReportReason kReportReasons[] = {
     {"rasterized.texture-without-image", "drawables with a texture that only OpenGL has"},
     {"rasterized.too-many-paths", "nodes after 4,194,304 paths, with all below them"},
     {"rasterized.view-mask", "drawables that the node masks of some views hide"},
-    {"rasterized.volume",
-     "osgVolume's volumes with a projection, an isosurface, a hull or another technique"},
+    {"rasterized.volume", "osgVolume's volumes with a projection, a hull or another technique"},
 
     {"traced.proxy", "uses of surfaces that OSG draws, traced for all rays but the camera's"},
 
@@ -108,8 +108,6 @@ constexpr ReportReason kReportReasons[] = {
     {"approximated.coat-normal",
      "clear coats of thin walls, which have the bumps of the wall's normal map"},
     {"approximated.color-mask", "drawables with a colour mask"},
-    {"approximated.volume-light",
-     "osgVolume's tiles with a LightingProperty, whose paths show them unlit"},
     {"approximated.cull-traversal",
      "nodes that may draw in cull, without a viewer: their cull traversal is not run"},
     {"approximated.depth-range", "drawables whose depth range has no extent, at their own depth"},
@@ -171,6 +169,7 @@ constexpr ReportReason kReportReasons[] = {
     {"warned.light-size", "names of light-sizes that no light has"},
     {"warned.material-name", "rules of the material file whose name nothing has"},
     {"warned.material-value", "rules of the material file that ask for what is not there"},
+    {"warned.open-body", "uses of drawables with an interior that they do not enclose"},
     {"warned.too-many-points", "drawables with more than 524,288 points and line segments"},
     {"warned.trace-hint", "nodes that are hinted to be traced, but cannot be"},
 

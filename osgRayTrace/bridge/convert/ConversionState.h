@@ -9,6 +9,7 @@
 #include "osgRayTrace/bridge/convert/ClippedUse.h"
 #include "osgRayTrace/bridge/convert/CullWatch.h"
 #include "osgRayTrace/bridge/convert/SceneIndex.h"
+#include "osgRayTrace/bridge/geometry/ClosedMesh.h"
 #include "osgRayTrace/bridge/geometry/GeometryCache.h"
 #include "osgRayTrace/bridge/graph/CollectedGraph.h"
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
@@ -31,6 +32,7 @@ struct ConversionCaches
     RuleCaches rules;
     DrawableTriangles triangles;
     GeometryCache geometries;
+    ClosedMeshes closedMeshes; ///< of bodies with an interior
     TextureConverter textures;
     EnvironmentConverter environment;
     VolumeImages volumes;

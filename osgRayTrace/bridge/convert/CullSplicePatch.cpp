@@ -130,6 +130,7 @@ ConversionCause ScenePatcher::addProxy(const CollectedGraph& graph,
     rules.linear = !_scene->displayReferred;
     rules.setsColor = _convertedGraph.setsColor;
     rules.comparable = true;
+    rules.patches = true;
     rules.now = _now;
     ConversionReport report;
     SceneBuilder(_input, graph, rules, _caches, _convertedGraph, *_scene, report).add(geometry);

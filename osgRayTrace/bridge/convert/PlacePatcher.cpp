@@ -83,8 +83,40 @@ bool PlacePatcher::move(const MovedUse& use)
     if (isPlaceBound(_scene.materials[_scene.instances[index].material]))
         return refuse(ConversionCause::PlaceBound);
     const Vec3d& origin = _scene.origin;
-    return place(*use.geometry, index,
-                 *worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z));
+    const osg::Matrixd engineFromLocal =
+        *worldFromLocal * osg::Matrixd::translate(-origin.x, -origin.y, -origin.z);
+    return found->second.raised ? raise(*use.geometry, index, engineFromLocal, false)
+                                : place(*use.geometry, index, engineFromLocal);
+}
+
+/// Makes the mesh of raised faces anew at a place: the height depends on the place.
+bool PlacePatcher::raise(const osg::Geometry& geometry, uint32_t index,
+                         const osg::Matrixd& engineFromLocal, bool copies)
+{
+    const MeshRequest* last = _geometries.lastRequest(geometry);
+    if (!last) return refuse(ConversionCause::NoMesh);
+    if (!isOrdinaryLength(largestCoordinate(_geometries.bounds(geometry), engineFromLocal)))
+        return refuse(ConversionCause::Lengths);
+    _geometries.recordMobility(geometry, copies ? Mobility::Deforming : Mobility::Dynamic);
+    MeshRequest request = *last;
+    request.transform.reset();
+    if (!engineFromLocal.isIdentity()) request.transform = engineFromLocal;
+    request.copies |= copies;
+    Instance& instance = _scene.instances[index];
+    const bool winding = dependsOnWinding(_scene.materials[instance.material]);
+    const std::shared_ptr<const Mesh> before = _scene.meshes[instance.mesh];
+    if (winding &&
+        isMirrored(engineFromLocal) != isMirrored(last->transform.value_or(osg::Matrixd())))
+        return refuse(ConversionCause::Winding);
+    if (!makeMesh(geometry, request, instance.mesh)) return false;
+    if (_scene.meshes[instance.mesh] == before && instance.placed) return true;
+    if (!instance.placed)
+    {
+        if (!placeInstance(instance, osg::Matrixd())) return refuse(ConversionCause::BadTransform);
+        _leftStatic = true;
+    }
+    touch(index);
+    return true;
 }
 
 bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
@@ -154,6 +186,8 @@ bool PlacePatcher::deform(const osg::Geometry& geometry)
     const MeshRequest* last = _geometries.lastRequest(geometry);
     if (!last) return refuse(ConversionCause::NoMesh);
     if (!hasTrianglesAlone(geometry)) return refuse(ConversionCause::LinesOrPoints);
+    if (found->second.raised && uses.size() == 1 && uses[0].instance != kInvalid)
+        return raise(geometry, uses[0].instance, last->transform.value_or(osg::Matrixd()), true);
     for (const TracedUse& use : uses)
     {
         const uint32_t index = use.instance;

@@ -37,6 +37,8 @@ public:
 
 private:
     bool place(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal);
+    bool raise(const osg::Geometry& geometry, uint32_t index, const osg::Matrixd& engineFromLocal,
+               bool copies);
     bool makeMesh(const osg::Geometry& geometry, const MeshRequest& request, uint32_t meshIndex);
     void touch(uint32_t index);
     /// Records the cause and returns false.

@@ -10,6 +10,7 @@
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/geometry/BoundArrays.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
+#include "osgRayTrace/scene/Bodies.h"
 
 #include <osgRayTrace/AreaLight>
 
@@ -133,6 +134,16 @@ void SceneBuilder::warnIfCoarse(const CollectedGeometry& geometry)
                  "coordinates below a transform");
 }
 
+/// Warns if a geometry has an interior, but does not enclose it.
+void SceneBuilder::warnIfOpen(const CollectedGeometry& geometry, const Instance& instance)
+{
+    const Material& material = _convertedGraph.materials[instance.material];
+    if (!enclosesBody(material) || !material.detail || !material.detail->fillsBody()) return;
+    if (_caches.closedMeshes.isClosed(*_scene.meshes[instance.mesh])) return;
+    _report.warn("warned.open-body", "geometry '" + geometry.path + "'",
+                 "the interior is not enclosed: rays that leave through a hole take it along");
+}
+
 /// Records whether new geometries join the static BVH. They get BVHs of their own, unless they have
 /// so many vertices that the static BVH may as well be built again.
 void SceneBuilder::recordNew()
@@ -218,10 +229,15 @@ void SceneBuilder::addGeometry(const CollectedGeometry& geometry)
     traced.patchable = traced.culled || (traced.uses.empty() && geometry.watched);
     _convertedGraph.index.removeUses(traced);
     traced.uses.reserve(geometry.uses.size());
+    bool raised = false;
     for (const GeometryUse& use : geometry.uses)
-        traced.patchable &= depthBias(_graph.states[use.state]) == 0.0f &&
-                            clipPlanesOn(_graph.states[use.state]) == 0;
-    if (isPlaced(geometry))
+    {
+        raised |= depthBias(_graph.states[use.state]) != 0.0f;
+        traced.patchable &= clipPlanesOn(_graph.states[use.state]) == 0;
+    }
+    traced.raised = raised && geometry.uses.size() == 1;
+    traced.patchable &= raised == traced.raised;
+    if (isPlaced(geometry) && !traced.raised)
         addPlacedUses(geometry);
     else
     {
@@ -251,8 +267,11 @@ void SceneBuilder::addBaked(const CollectedGeometry& geometry, const GeometryUse
     reportOf(geometry).count("converted.geometry");
     Instance instance;
     instance.mesh = addMesh(mesh);
-    if (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes)
-        placeInstance(instance, osg::Matrixd()); // the static BVH must not be built time and again
+    // The static BVH must not be built time and again, and nothing keeps it once it is given up.
+    if (_rules.patches || _caches.noStaticBvh ||
+        (clipPlanesOn(_graph.states[use.state]) & _caches.movedPlanes) ||
+        _caches.geometries.mobility(*geometry.geometry) != Mobility::Static)
+        placeInstance(instance, osg::Matrixd());
     addInstance(geometry, use, instance);
 }
 
@@ -311,7 +330,8 @@ bool SceneBuilder::addUse(const CollectedGeometry& geometry, const GeometryUse& 
 {
     TracedGeometry& traced = _convertedGraph.index.at(*geometry.geometry);
     const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-    if (!request || traced.uses.empty() || depthBias(_graph.states[use.state]) != 0.0f)
+    if (!request || traced.uses.empty() || traced.raised ||
+        depthBias(_graph.states[use.state]) != 0.0f)
         return false;
     if (moreUvSetsOf(_graph.states[use.state]) & ~request->uvSets) return false;
     osg::Matrixd localFromMesh;
@@ -350,6 +370,7 @@ TracedUse SceneBuilder::newInstance(const CollectedGeometry& geometry, const Geo
         _materials.material(state, surfaceInputs(*geometry.geometry, _input.pointRadius),
                             {use.engineFromLocal, &_graph.texGens}));
     _report.addHere(_materialReport);
+    warnIfOpen(geometry, instance);
     setAmbient(state);
     instance.changed = _rules.now;
     return {appendInstance(instance), effects(use.state, _materialReport.counts())};

@@ -17,6 +17,7 @@ struct BuildRules
     bool linear = false;
     bool setsColor = false;  ///< see MaterialRules
     bool comparable = false; ///< comparable with the last snapshot: differences are changes
+    bool patches = false;    ///< adds to a scene that is there: all instances are placed
     Stamp now = 0;
 };
 
@@ -49,6 +50,7 @@ private:
     void putFlatFirst();
     void addGeometry(const CollectedGeometry& geometry);
     void warnIfCoarse(const CollectedGeometry& geometry);
+    void warnIfOpen(const CollectedGeometry& geometry, const Instance& instance);
     Clipping clipBy(const CollectedGeometry& geometry, const GeometryUse& use,
                     MeshRequest& request);
     void recordClipped(const CollectedGeometry& geometry, const GeometryUse& use,

@@ -37,6 +37,7 @@ void beginCollection(ConversionCaches& caches)
     caches.vertices.begin();
     caches.triangles.begin();
     caches.rules.begin();
+    caches.closedMeshes.begin();
 }
 
 /// Forgets in the caches what the graph no longer has.
@@ -45,6 +46,7 @@ void endCollection(ConversionCaches& caches)
     caches.vertices.end();
     caches.triangles.end();
     caches.rules.end();
+    caches.closedMeshes.end();
 }
 
 /// Returns the parts that OSG has to draw; null: the parts show nothing.

@@ -47,8 +47,9 @@ struct TracedGeometry
 {
     osg::ref_ptr<const osg::Geometry> geometry; ///< key in SceneIndex::geometries
     std::vector<TracedUse> uses;                ///< in the order of the traversal
-    /// False: the mesh is made at its place, as raised faces are, or is not watched.
+    /// False: the mesh is made at its place, as cut faces are, or is not watched.
     bool patchable = true;
+    bool raised = false; ///< true: its only use has raised faces, in a mesh made at its place
     bool culled = false; ///< true: CullWatch tells what changes in it, and GraphWatch does not
     bool plain = true;   ///< true: only its conversion is counted
 };

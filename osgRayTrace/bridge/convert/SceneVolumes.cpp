@@ -46,36 +46,6 @@ float usable(const std::optional<float>& value, float otherwise, float least, fl
     return value && std::isfinite(*value) ? std::clamp(*value, least, most) : otherwise;
 }
 
-/// Sets the table of a transfer function. Returns false if it has no entries.
-bool setTransfer(const osg::TransferFunction1D& source, const osgVolume::ImageLayer& layer,
-                 bool linear, Volume& volume, uint64_t& repaired)
-{
-    const osg::Image* table = source.getImage();
-    if (!table || !table->data() || table->s() < 1) return false;
-    if (static_cast<std::size_t>(table->s()) > kMostTransferEntries) return false;
-    for (int i = 0; i < table->s(); ++i)
-    {
-        const osg::Vec4 color = table->getColor(static_cast<unsigned int>(i));
-        Vec4 entry(color.r(), color.g(), color.b(), color.a());
-        for (int c = 0; c < 4; ++c)
-        {
-            if (!std::isfinite(entry[c]))
-            {
-                entry[c] = 0.0f;
-                ++repaired;
-            }
-            // OpenGL keeps the table as a texture of bytes.
-            entry[c] = std::round(std::clamp(entry[c], 0.0f, 1.0f) * 255.0f) / 255.0f;
-            if (linear && c < 3) entry[c] = linearFromSrgb(entry[c]);
-        }
-        volume.transfer.push_back(entry);
-    }
-    const float extent = source.getMaximum() - source.getMinimum();
-    volume.transferScale = layer.getTexelScale()[3] / extent;
-    volume.transferOffset = (layer.getTexelOffset()[3] - source.getMinimum()) / extent;
-    return std::isfinite(volume.transferScale) && std::isfinite(volume.transferOffset);
-}
-
 /// Sets all but the places of a volume. Returns why it cannot be shown; null: it can.
 const char* setLook(const CollectedTile& source, bool linear, VolumeImages& images, Volume& volume,
                     uint64_t& repaired)
@@ -90,7 +60,7 @@ const char* setLook(const CollectedTile& source, bool linear, VolumeImages& imag
 
     const VolumeProperties properties = propertiesOf(tile);
     if (properties.transfer && !setTransfer(*properties.transfer, *layer, linear, volume, repaired))
-        return "its transfer function has no entries, more than 65,536 or no extent";
+        return kTransferFault;
     volume.law = isRayTraced(tile) ? VolumeLaw::Samples : VolumeLaw::Cells;
     constexpr float kLargest = 1e6f;
     volume.transparency = usable(properties.transparency, 1.0f, 0.0f, kLargest);
@@ -139,7 +109,6 @@ void setVolumes(Scene& scene, const std::vector<CollectedTile>& tiles, VolumeIma
             continue;
         }
         if (repaired > 0) report.count("repaired.voxel", repaired);
-        if (volume.lit) report.count("approximated.volume-light");
         volume.tileFromEngine = *tileMap;
         volume.imageFromEngine = *imageMap;
         scene.volumes.push_back(std::move(volume));

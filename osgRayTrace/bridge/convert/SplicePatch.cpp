@@ -96,13 +96,22 @@ void ScenePatcher::removeMesh(uint32_t index)
     _convertedGraph.meshGaps.push_back(index);
 }
 
-/// Returns whether no traced use has these effects any more: the effects on the whole scene would
-/// then change.
+/// Returns whether no traced use is left that has the same effects on the whole scene, so that they
+/// would cease.
 bool ScenePatcher::isLastOf(uint32_t effects) const
 {
+    const StateEffects& gone = _convertedGraph.index.stateEffects[effects];
+    bool ambient = gone.hasAmbient, physical = gone.physical, color = gone.setsColor;
     for (const auto& [geometry, traced] : _convertedGraph.index.geometries)
         for (const TracedUse& use : traced.uses)
-            if (use.effects == effects && use.instance != kInvalid) return false;
+        {
+            if (use.effects == kInvalid || use.instance == kInvalid) continue;
+            const StateEffects& other = _convertedGraph.index.stateEffects[use.effects];
+            ambient &= !(other.hasAmbient && other.ambient == gone.ambient);
+            physical &= !other.physical;
+            color &= !other.setsColor;
+            if (!ambient && !physical && !color) return false;
+        }
     return true;
 }
 
@@ -201,6 +210,7 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
     rules.linear = !_scene->displayReferred;
     rules.setsColor = _convertedGraph.setsColor;
     rules.comparable = true;
+    rules.patches = true;
     rules.now = _now;
     SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
     std::vector<ChangedUse> uses;

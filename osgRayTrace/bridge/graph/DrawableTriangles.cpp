@@ -211,6 +211,7 @@ void DrawableTriangles::end()
     };
     forget(_copies);
     forget(_chosen);
+    isoSurfaces.end();
 }
 
 uint64_t DrawableTriangles::hashOf(const osg::Drawable& drawable)

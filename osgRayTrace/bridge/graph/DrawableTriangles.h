@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/bridge/graph/IsoSurfaces.h"
+
 #include <osg/Drawable>
 #include <osg/Geometry>
 
@@ -20,7 +22,11 @@ namespace osgRayTrace::engine
 class DrawableTriangles
 {
 public:
-    void begin() { ++_round; }
+    void begin()
+    {
+        ++_round;
+        isoSurfaces.begin();
+    }
 
     /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
     const osg::Geometry* of(const osg::Drawable& drawable);
@@ -38,6 +44,8 @@ public:
     /// Returns a hash of the triangles, for drawables that change without a sign; 0: the drawable
     /// tells none.
     static uint64_t hashOf(const osg::Drawable& drawable);
+
+    IsoSurfaces isoSurfaces; ///< of osgVolume's tiles, which have the rounds of this object
 
 private:
     struct Copy

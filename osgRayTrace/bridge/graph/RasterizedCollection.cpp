@@ -114,8 +114,29 @@ void GraphCollector::collectVolume(osg::Group& group)
         own ? dynamic_cast<const osg::Material*>(own->getAttribute(osg::StateAttribute::MATERIAL))
             : nullptr;
     if (material) found.diffuse = material->getDiffuse(osg::Material::FRONT);
-    _graph.lights.tiles.push_back(found);
+    if (propertiesOf(*tile).isoValue)
+        collectIsoSurface(*tile, material || found.material);
+    else
+        _graph.lights.tiles.push_back(found);
     if (pushed) _states.pop();
+}
+
+/// Collects the isosurface of the tile at the end of the path as if it were a child of the tile.
+void GraphCollector::collectIsoSurface(const osgVolume::VolumeTile& tile, bool hasMaterial)
+{
+    const IsoSurfaces::Result found = _triangles.isoSurfaces.of(tile, hasMaterial);
+    if (found.repaired > 0) _report.count("repaired.voxel", found.repaired);
+    if (found.fault)
+    {
+        _report.warn("skipped.volume", "volume '" + path() + "'",
+                     std::string(found.fault) + ", skipped");
+        return;
+    }
+    _report.count("converted.isosurface");
+    if (!found.node) return;
+    ++_untracked;
+    found.node->accept(*this);
+    --_untracked;
 }
 
 /// Traverses the children, whatever the group's own traverse does.

@@ -4,6 +4,8 @@
 
 #include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/common/LibraryName.h"
+#include "osgRayTrace/film/ToneMap.h"
+#include "osgRayTrace/scene/VolumeLimits.h"
 
 #include <osg/Group>
 #include <osgVolume/MultipassTechnique>
@@ -11,6 +13,8 @@
 #include <osgVolume/RayTracedTechnique>
 #include <osgVolume/VolumeSettings>
 
+#include <algorithm>
+#include <cmath>
 #include <typeinfo>
 #include <unordered_set>
 #include <vector>
@@ -35,7 +39,7 @@ public:
     }
     void apply(osgVolume::LightingProperty&) override { found.lit = true; }
     void apply(osgVolume::MaximumIntensityProjectionProperty&) override { found.projected = true; }
-    void apply(osgVolume::IsoSurfaceProperty&) override { found.isoSurface = true; }
+    void apply(osgVolume::IsoSurfaceProperty& p) override { found.isoValue = p.getValue(); }
     void apply(osgVolume::VolumeSettings&) override { found.settings = true; }
     void apply(osgVolume::AlphaFuncProperty& p) override { found.cutoff = p.getValue(); }
     void apply(osgVolume::TransparencyProperty& p) override { found.transparency = p.getValue(); }
@@ -89,10 +93,38 @@ const char* untracedTile(const osgVolume::VolumeTile& tile)
     if (!layer) return "its layer is no ImageLayer";
     const VolumeProperties properties = propertiesOf(tile);
     if (properties.projected) return "it is a maximum intensity projection";
-    if (properties.isoSurface) return "it is an isosurface";
     if (properties.settings)
         return "it has VolumeSettings, or a transfer function of two or more dimensions";
     return nullptr;
+}
+
+bool setTransfer(const osg::TransferFunction1D& source, const osgVolume::ImageLayer& layer,
+                 bool linear, Volume& volume, uint64_t& repaired)
+{
+    const osg::Image* table = source.getImage();
+    if (!table || !table->data() || table->s() < 1) return false;
+    if (static_cast<std::size_t>(table->s()) > kMostTransferEntries) return false;
+    for (int i = 0; i < table->s(); ++i)
+    {
+        const osg::Vec4 color = table->getColor(static_cast<unsigned int>(i));
+        Vec4 entry(color.r(), color.g(), color.b(), color.a());
+        for (int c = 0; c < 4; ++c)
+        {
+            if (!std::isfinite(entry[c]))
+            {
+                entry[c] = 0.0f;
+                ++repaired;
+            }
+            // OpenGL keeps the table as a texture of bytes.
+            entry[c] = std::round(std::clamp(entry[c], 0.0f, 1.0f) * 255.0f) / 255.0f;
+            if (linear && c < 3) entry[c] = linearFromSrgb(entry[c]);
+        }
+        volume.transfer.push_back(entry);
+    }
+    const float extent = source.getMaximum() - source.getMinimum();
+    volume.transferScale = layer.getTexelScale()[3] / extent;
+    volume.transferOffset = (layer.getTexelOffset()[3] - source.getMinimum()) / extent;
+    return std::isfinite(volume.transferScale) && std::isfinite(volume.transferOffset);
 }
 
 const char* untracedTileBelow(const osg::Node& node)
@@ -131,11 +163,10 @@ uint64_t volumeHash(const osgVolume::VolumeTile& tile)
     hash = fold(hash, memoryHash(layer->getTexelScale().ptr(), sizeof(osg::Vec4)));
     hash = fold(hash, memoryHash(layer->getTexelOffset().ptr(), sizeof(osg::Vec4)));
     const VolumeProperties properties = propertiesOf(tile);
-    hash =
-        fold(hash, unsigned(properties.lit) + 2u * unsigned(properties.projected) +
-                       4u * unsigned(properties.isoSurface) + 8u * unsigned(properties.settings));
+    hash = fold(hash, unsigned(properties.lit) + 2u * unsigned(properties.projected) +
+                          8u * unsigned(properties.settings));
     hash = fold(hash, valueHash({properties.cutoff, properties.transparency, properties.sampleRatio,
-                                 properties.sampleDensity}));
+                                 properties.sampleDensity, properties.isoValue}));
     if (!properties.transfer) return hash;
     const float range[] = {properties.transfer->getMinimum(), properties.transfer->getMaximum()};
     hash = fold(hash, memoryHash(range, sizeof range));

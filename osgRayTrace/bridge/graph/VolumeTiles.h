@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/scene/Volume.h"
+
 #include <osg/Node>
 #include <osg/TransferFunction>
 #include <osgVolume/VolumeTile>
@@ -15,15 +17,23 @@ namespace osgRayTrace::engine
 struct VolumeProperties
 {
     osg::ref_ptr<const osg::TransferFunction1D> transfer;
-    bool lit = false;        ///< LightingProperty
-    bool projected = false;  ///< MaximumIntensityProjectionProperty
-    bool isoSurface = false; ///< IsoSurfaceProperty
-    bool settings = false;   ///< VolumeSettings, or a transfer function of another class
+    bool lit = false;              ///< LightingProperty
+    bool projected = false;        ///< MaximumIntensityProjectionProperty
+    bool settings = false;         ///< VolumeSettings, or a transfer function of another class
+    std::optional<float> isoValue; ///< IsoSurfaceProperty
     std::optional<float> cutoff, transparency, sampleRatio, sampleDensity;
 };
 
 /// Returns the active properties of a tile with a layer.
 VolumeProperties propertiesOf(const osgVolume::VolumeTile& tile);
+
+/// Sets the table of a transfer function. linear: its colours are decoded from sRGB. Adds the
+/// number of entries that are not finite to repaired. Returns false, for kTransferFault, if the
+/// function is not usable.
+bool setTransfer(const osg::TransferFunction1D& source, const osgVolume::ImageLayer& layer,
+                 bool linear, Volume& volume, uint64_t& repaired);
+constexpr const char* kTransferFault =
+    "its transfer function has no entries, more than 65,536 or no extent";
 
 /// Returns whether the tile is one of osgVolume::RayTracedTechnique. Others that are traced have a
 /// MultipassTechnique.

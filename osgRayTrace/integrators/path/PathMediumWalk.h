@@ -5,8 +5,10 @@
 #include "osgRayTrace/accel/Bodies.h"
 #include "osgRayTrace/integrators/path/PathMedium.h"
 #include "osgRayTrace/integrators/shared/SegmentLights.h"
+#include "osgRayTrace/integrators/shared/VolumeLightChoice.h"
 
 #include <memory>
+#include <optional>
 
 namespace osgRayTrace::engine
 {
@@ -30,6 +32,7 @@ public:
         {
             _grids = std::make_unique<GridLanes>();
             _segments.grids = _grids.get();
+            if (_traced.grids().isLit()) _light = volumeLight(tile.context);
         }
         for (int i = 0; i < kLanes; ++i)
         {
@@ -91,6 +94,7 @@ private:
     SurfaceLanes _surface;
     MediumSegments _segments;
     std::unique_ptr<GridLanes> _grids; ///< null: the scene has no volumes
+    std::optional<VolumeLight> _light; ///< nothing: no volume is lit
 };
 
 } // namespace osgRayTrace::engine

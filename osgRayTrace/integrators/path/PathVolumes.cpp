@@ -17,6 +17,7 @@ void MediumWalk::findGrids(int i, Vec3 origin, float end)
         grids.reset();
         return;
     }
+    if (_light) grids->setLight(*_light);
     grids->setAround(_media[_segments.media[i]], _segments.parts[i]);
     _segments.parts[i] = grids->extent();
     if (grids->scatters() && !_last) _segments.lanes |= 1u << i;

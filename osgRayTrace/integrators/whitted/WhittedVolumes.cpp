@@ -7,6 +7,7 @@
 #include "osgRayTrace/integrators/whitted/WhittedVolumes.h"
 
 #include "osgRayTrace/integrators/shared/MediumNumbers.h"
+#include "osgRayTrace/integrators/shared/VolumeLightChoice.h"
 #include "osgRayTrace/media/GridMarch.h"
 
 #include <algorithm>
@@ -14,22 +15,6 @@
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-/// Returns the light that OpenGL numbers 0. Without one it is as OpenGL has it at first: far behind
-/// the eye.
-VolumeLight firstLight(const PassContext& context)
-{
-    for (const Light& light : *context.lights)
-        if (light.number == 0 &&
-            (light.kind == LightKind::Directional || light.kind == LightKind::Point))
-            return {light.kind == LightKind::Directional, light.direction, light.position};
-    return {true, -context.towardsViewer, Vec3(0.0f)};
-}
-
-} // namespace
 
 bool findDensities(const PassContext& context, RayPart& part, const MediumRecord& around,
                    bool fills, Vec3 origin, Vec3 direction, float end,
@@ -60,7 +45,7 @@ void dimByDensities(const PassContext& context, ShadingBlock& block, int i, cons
 void addVolumes(const WhittedTile& tile, ShadingBlock& block, LaneMask active)
 {
     const GridTable& grids = tile.context.traced->grids();
-    const VolumeLight light = firstLight(tile.context);
+    const VolumeLight light = volumeLight(tile.context);
     const RayBlock& ray = block.rays.ray;
     for (const int i : lanesIn(active))
     {

@@ -75,14 +75,16 @@ void decodeColors(VolumeImage& image)
         if (i % 4 != 3) image.floats[i] = linearFromSrgb(image.floats[i]);
 }
 
-VolumeImages::Result decoded(const osg::Image& source, bool linear)
+VolumeImages::Result decoded(const osg::Image& source, bool linear, bool valuesAlone = false)
 {
     VolumeImages::Result result;
     result.fault = "its image is empty";
     if (!source.data() || source.s() < 1 || source.t() < 1 || source.r() < 1) return result;
     result.fault = "its image is of a format that cannot be read";
     if (source.isCompressed()) return result;
-    const int channel = soleChannel(source);
+    constexpr int kAlpha = 3;
+    const int sole = soleChannel(source);
+    const int channel = sole < 0 && valuesAlone ? kAlpha : sole;
     const uint64_t values = uint64_t(static_cast<unsigned int>(source.s())) *
                             static_cast<unsigned int>(source.t()) *
                             static_cast<unsigned int>(source.r()) * (channel < 0 ? 4u : 1u);
@@ -136,6 +138,11 @@ VolumeImages::Result VolumeImages::convert(const osg::Image& image, bool linear)
     _entries.push_back(
         {&image, image.getModifiedCount(), image.data(), linear, true, decoded(image, linear)});
     return _entries.back().result;
+}
+
+VolumeImages::Result VolumeImages::values(const osg::Image& image)
+{
+    return decoded(image, false, true);
 }
 
 void VolumeImages::end()

@@ -34,6 +34,10 @@ public:
     /// luminance and intensity have one value a voxel.
     Result convert(const osg::Image& image, bool linear);
 
+    /// Returns the values of an image alone: the last channel of those that have several. Nothing
+    /// is kept of it.
+    static Result values(const osg::Image& image);
+
     /// Forgets the images that were not asked for since the last call.
     void end();
 
