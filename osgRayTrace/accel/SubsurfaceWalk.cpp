@@ -34,8 +34,9 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Rays of walks meet every surface, also one that is transparent or culled.
-constexpr HitRule kWalkRays{false, false, false, true, false};
+/// Rays of walks meet every diffuse boundary, also one that is transparent or culled, and nothing
+/// else: a body may stand on a floor that is exactly where the body ends.
+constexpr HitRule kWalkRays{false, false, false, true, false, true};
 
 /// The number of surfaces that one flight is followed through.
 constexpr int kMostPassed = 64;
@@ -164,7 +165,7 @@ private:
             const SingleSurface met(_traced, _walk.position, _walk.direction, *hit);
             const uint32_t material = met.surface.material[0];
             begin = std::nextafter(std::nextafter(hit->t, kInfinity), kInfinity);
-            if (!_traced.materials()[material].subsurface) continue;
+            if (!_traced.materials()[material].subsurface) continue; // Embree masks no rays
             isClosed = true;
             if (hit->t >= distance) return FlightEnd::Collision;
             if (met.isFront())
