@@ -190,7 +190,6 @@ TEST_CASE("subsurface: edits of colour, radius and weight are patched, and begin
     LiveGraph graph;
     const osg::ref_ptr<PhysicalMaterial> wax = new PhysicalMaterial;
     wax->setBaseColor({0.9f, 0.6f, 0.4f});
-    wax->setSubsurface(1.0f);
     wax->setSubsurfaceRadius({0.3f, 0.2f, 0.1f});
     const osg::ref_ptr<osg::ShapeDrawable> ball =
         new osg::ShapeDrawable(new osg::Sphere({1.0f, 0.5f, 0.6f}, 0.6f));
@@ -200,7 +199,7 @@ TEST_CASE("subsurface: edits of colour, radius and weight are patched, and begin
     view.image();
     view.image();
     REQUIRE(view.passes() == 2);
-    CHECK(sceneTraits(*view.scene()).subsurface);
+    CHECK_FALSE(sceneTraits(*view.scene()).subsurface);
     const auto edit = [&](const char* what, const std::function<void()>& change)
     {
         INFO(what);
@@ -219,6 +218,8 @@ TEST_CASE("subsurface: edits of colour, radius and weight are patched, and begin
         view.image();
         CHECK(view.passes() == 2);
     };
+    edit("whole", [&] { wax->setSubsurface(1.0f); });
+    CHECK(sceneTraits(*view.scene()).subsurface);
     edit("colour", [&] { wax->setBaseColor({0.5f, 0.6f, 0.9f}); });
     edit("radius", [&] { wax->setSubsurfaceRadius({0.3f, 0.2f, 0.4f}); });
     edit("weight", [&] { wax->setSubsurface(0.5f); });

@@ -4,7 +4,7 @@
 // All tests have fixed seeds. Means have to agree within four standard errors, as Estimate says.
 #include "osgRayTrace/accel/SubsurfaceWalk.h"
 #include "osgRayTrace/sampling/Hash.h"
-#include "tests/integrators/MediaScenes.h"
+#include "tests/integrators/SubsurfaceScenes.h"
 
 #include <random>
 
@@ -14,34 +14,12 @@ using namespace osgRayTrace::engine::test;
 namespace
 {
 
-/// Returns a surface below which light walks. ior: 1 for a surface without a highlight.
-Material wax(Vec3 color, Vec3 radius, float ior = 1.0f, float weight = 1.0f)
-{
-    Material material;
-    material.model = MaterialModel::Physical;
-    material.baseColor = color;
-    material.ior = ior;
-    MaterialDetail detail;
-    detail.subsurface = weight;
-    detail.subsurfaceRadius = radius;
-    material.detail = std::make_shared<MaterialDetail>(detail);
-    return material;
-}
-
-Material changed(Material material, void (*change)(Material&, MaterialDetail&))
-{
-    MaterialDetail detail = *material.detail;
-    change(material, detail);
-    material.detail = std::make_shared<MaterialDetail>(detail);
-    return material;
-}
-
 /// Returns the share of light that a half-space scatters back of light that comes by the cosine
 /// law: 1 - 2 sqrt(1 - a) times the integral of H(mu) mu [Chandrasekhar60], with H by iteration of
 /// 1/H = sqrt(1 - a) + a/2 times the integral of mu' H(mu') / (mu + mu').
 double bondAlbedo(double a)
 {
-    constexpr int kNodes = 2000;
+    constexpr int kNodes = 400;
     std::vector<double> h(kNodes, 1.0), next(kNodes);
     const auto node = [](int i) { return (i + 0.5) / kNodes; };
     for (int round = 0; round < 60; ++round)
@@ -158,23 +136,6 @@ Estimate discOf(const Material& material, int passes)
         estimate.add((double(picture.mean().y) - (1.0 - disc)) / disc);
     }
     return estimate;
-}
-
-/// A ball of wax on a floor, before a wall, below a lamp.
-SceneBuilder room(const Material& ball, const Material& floor = lambert(Vec3(0.6f)))
-{
-    SceneBuilder builder;
-    builder.add(sphereMesh(Vec3(0.0f, 0.0f, 1.0f), 1.0f, 24), ball);
-    builder.add(quadMesh({-4.0f, -4.0f, -0.01f}, {8.0f, 0.0f, 0.0f}, {0.0f, 8.0f, 0.0f}), floor);
-    builder.add(quadMesh({-4.0f, 2.0f, 0.0f}, {8.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 5.0f}),
-                lambert(Vec3(0.7f, 0.5f, 0.3f)));
-    builder.addQuadLight({0.5f, -0.5f, 4.0f}, {0.0f, 1.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, Vec3(10.0f));
-    return builder;
-}
-
-View roomView(int pixels = 32)
-{
-    return perspectiveView({0, -6, 3}, {0, 0, 0.8}, {0, 0, 1}, 30, pixels, pixels);
 }
 
 } // namespace
@@ -323,11 +284,16 @@ TEST_CASE("subsurface: pixels that share paths, and those in air, agree",
         const auto shared = alone.build();
         alone.scene = std::make_shared<Scene>(*alone.scene);
         setAtmosphere(alone, mediumOf(1e-12f, 0.5f), 20.0f);
-        const RenderOptions options = optionsOf(IntegratorKind::Path, 5);
-        const Estimate one = measure(shared, roomView(), options, 4);
-        const Estimate other = measure(alone.build(), roomView(), options, 4);
-        CAPTURE(ior, one.mean(), one.standardError(), other.mean(), other.standardError());
-        CHECK(one.agrees(other.mean(), 4.0 * other.standardError()));
+        RenderOptions options = optionsOf(IntegratorKind::Path, 5);
+        const View near = perspectiveView({0, -6, 3}, {0, 0, 1}, {0, 0, 1}, 14, 32, 32);
+        const auto inAir = alone.build();
+        Estimate difference; // both have the same random numbers, and nearly the same noise
+        for (options.seed = 0; options.seed < 16; ++options.seed)
+            difference.add(double(render(shared, near, options, 4).mean().y) -
+                           double(render(inAir, near, options, 4).mean().y));
+        CAPTURE(ior, difference.mean(), difference.standardError());
+        CHECK(difference.standardError() < 3e-4); // of 0.08
+        CHECK(difference.agrees(0.0));
     }
 }
 
@@ -373,59 +339,4 @@ TEST_CASE("subsurface: a body on a floor that is exactly where the body ends",
         CHECK(picture.progress.openWalks == 0);
         CHECK(picture.mean().y == Approx(1.0f).margin(2e-3));
     }
-}
-
-TEST_CASE("subsurface: photons bring what paths find", "[statistics][subsurface]")
-{
-    // In the way of the lamp stands a mirror, so that there are caustics.
-    const auto scene = [](float weight)
-    {
-        SceneBuilder builder =
-            room(wax(Vec3(0.9f, 0.7f, 0.5f), Vec3(0.6f, 0.4f, 0.2f), 1.4f, weight));
-        builder.add(quadMesh({-2.5f, -1.0f, 0.0f}, {0.0f, 2.0f, 0.0f}, {-0.8f, 0.0f, 2.0f}),
-                    mirror(Vec3(0.9f)));
-        return builder.build();
-    };
-    for (const float weight : {1.0f, 0.5f})
-    {
-        const auto traced = scene(weight);
-        RenderOptions options = optionsOf(IntegratorKind::Path, 5);
-        const Estimate expected = measure(traced, roomView(), options, 16);
-        options.photons = 20000;
-        for (const IntegratorKind kind :
-             {IntegratorKind::PhotonCaustics, IntegratorKind::Ppm, IntegratorKind::Sppm})
-        {
-            options.integrator = kind;
-            const Estimate seen = measure(traced, roomView(), options, 16);
-            CAPTURE(weight, int(kind), seen.mean(), seen.standardError(), expected.mean(),
-                    expected.standardError());
-            // The kernel blurs light beyond edges: 1 % beside the noise.
-            CHECK(seen.agrees(expected.mean(),
-                              4.0 * expected.standardError() + 0.01 * expected.mean()));
-        }
-    }
-}
-
-TEST_CASE("subsurface: pictures do not depend on the number of threads", "[subsurface]")
-{
-    SceneBuilder builder = room(wax(Vec3(0.9f, 0.7f, 0.5f), Vec3(0.4f, 0.2f, 0.1f), 1.5f));
-    const RenderOptions options = optionsOf(IntegratorKind::Path, 5);
-    const Picture one = render(builder.build(1), roomView(), options, 2, 1);
-    CHECK(one.progress.collisions > 0);
-    for (const int threads : {2, 16})
-        CHECK(render(builder.build(threads), roomView(), options, 2, threads).rgba == one.rgba);
-}
-
-TEST_CASE("subsurface: whitted shows the diffuse base and says so", "[subsurface]")
-{
-    const auto traced = room(wax(Vec3(0.5f), Vec3(0.1f))).build();
-    const RenderOptions options = optionsOf(IntegratorKind::Whitted, 3);
-    const Picture picture = render(traced, roomView(), options, 1);
-    CHECK(picture.progress.mediumNote == MediumNote::DiffuseOnly);
-    const auto plain = room(wax(Vec3(0.5f), Vec3(0.1f), 1.0f, 0.0f)).build();
-    const Picture same = render(plain, roomView(), options, 1);
-    CHECK(same.progress.mediumNote == MediumNote::None);
-    CHECK(double(picture.mean().y) == Approx(double(same.mean().y)).epsilon(1e-4));
-    const RenderOptions paths = optionsOf(IntegratorKind::Path, 3);
-    CHECK(render(traced, roomView(), paths, 1).progress.mediumNote == MediumNote::None);
 }
