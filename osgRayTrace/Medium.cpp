@@ -92,11 +92,9 @@ void Medium::setMultiscatterColor(const osg::Vec3& color)
     assign("multiscatter color", clamped, color, 1.0f);
     for (int i = 0; i < 3; ++i)
     {
-        const double c = double(clamped[i]);
-        const double s = 4.20863 * c - std::sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c) + 4.09712;
-        const double albedo = (1.0 - s * s) / (1.0 - double(_anisotropy) * s * s);
+        const double albedo = engine::albedoOfColor(double(clamped[i]), double(_anisotropy));
         const float extinction = _absorption[i] + _scattering[i];
-        _scattering[i] = extinction * static_cast<float>(std::clamp(albedo, 0.0, 1.0));
+        _scattering[i] = extinction * static_cast<float>(albedo);
         _absorption[i] = extinction - _scattering[i];
     }
 }

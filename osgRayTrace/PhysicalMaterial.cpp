@@ -108,6 +108,8 @@ PhysicalMaterial::PhysicalMaterial(const PhysicalMaterial& other, const osg::Cop
       _anisotropyRotation(other._anisotropyRotation),
       _diffuseTransmission(other._diffuseTransmission),
       _diffuseTransmissionColor(other._diffuseTransmissionColor),
+      _subsurface(other._subsurface),
+      _subsurfaceRadius(other._subsurfaceRadius),
       _iridescence(other._iridescence),
       _iridescenceIor(other._iridescenceIor),
       _iridescenceThicknessMinimum(other._iridescenceThicknessMinimum),
@@ -132,9 +134,9 @@ int PhysicalMaterial::compare(const osg::StateAttribute& other) const
                         m._attenuationColor, m._attenuationDistance, m._specular, m._specularColor,
                         m._clearcoat, m._clearcoatRoughness, m._clearcoatNormalScale, m._sheenColor,
                         m._sheenRoughness, m._anisotropy, m._anisotropyRotation,
-                        m._diffuseTransmission, m._diffuseTransmissionColor, m._iridescence,
-                        m._iridescenceIor, m._iridescenceThicknessMinimum,
-                        m._iridescenceThicknessMaximum);
+                        m._diffuseTransmission, m._diffuseTransmissionColor, m._subsurface,
+                        m._subsurfaceRadius, m._iridescence, m._iridescenceIor,
+                        m._iridescenceThicknessMinimum, m._iridescenceThicknessMaximum);
     };
     if (values(*this) < values(rhs)) return -1;
     if (values(rhs) < values(*this)) return 1;
@@ -253,6 +255,16 @@ void PhysicalMaterial::setDiffuseTransmission(float value)
 void PhysicalMaterial::setDiffuseTransmissionColor(const osg::Vec3& value)
 {
     assign("diffuse transmission color", _diffuseTransmissionColor, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setSubsurface(float value)
+{
+    assign("subsurface", _subsurface, value, 0.0f, 1.0f);
+}
+
+void PhysicalMaterial::setSubsurfaceRadius(const osg::Vec3& value)
+{
+    assign("subsurface radius", _subsurfaceRadius, value, 0.0f, kLargest);
 }
 
 void PhysicalMaterial::setIridescence(float value)

@@ -77,6 +77,7 @@ std::string statisticsJson(const Options& options, const Statistics& statistics,
     if (statistics.collisions || !statistics.mediumNote.empty())
         json["media"] = {{"collisions", statistics.collisions},
                          {"cutWalks", statistics.cutWalks},
+                         {"openWalks", statistics.openWalks},
                          {"note", statistics.mediumNote}};
     json["relativeError"] = statistics.relativeError;
     json["medianError"] = statistics.medianError;

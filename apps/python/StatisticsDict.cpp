@@ -108,6 +108,7 @@ py::dict statisticsDict(const Statistics& statistics)
     OSGRAYTRACE_MEMBER(photonNote);
     OSGRAYTRACE_MEMBER(collisions);
     OSGRAYTRACE_MEMBER(cutWalks);
+    OSGRAYTRACE_MEMBER(openWalks);
     OSGRAYTRACE_MEMBER(mediumNote);
     OSGRAYTRACE_MEMBER(denoiseMilliseconds);
     OSGRAYTRACE_MEMBER(denoiser);

@@ -40,6 +40,10 @@ osg::ref_ptr<osg::Group> drinks();
 /// voxels are densities. Lengths are metres.
 osg::ref_ptr<osg::Group> smoke();
 
+/// Returns a bust of wax, light that enters its diffuse surface, with a lamp behind it. Lengths are
+/// centimetres, z is up.
+osg::ref_ptr<osg::Group> waxBust();
+
 /// Returns a dark room full of haze, into which a low sun shines through a window of coloured
 /// panes. Lengths are metres, z is up.
 osg::ref_ptr<osg::Group> hazeWindow();

@@ -38,6 +38,7 @@ int main(int argc, char** argv)
         {"glass_ball_fog.osgt", glassBallFog()},
         {"grids.osgt", grids()},
         {"smoke.osgb", smoke()},
+        {"wax.osgt", waxBust()},
         {"furnace.osgt", furnace()},
         {"rings.osgt", rings()},
         {"glasses.osgt", glasses()},

@@ -188,6 +188,8 @@ constexpr Parameter kParameters[] = {
     parameter<&M::getDiffuseTransmission, &M::setDiffuseTransmission>("diffuseTransmission"),
     parameter<&M::getDiffuseTransmissionColor, &M::setDiffuseTransmissionColor>(
         "diffuseTransmissionColor"),
+    parameter<&M::getSubsurface, &M::setSubsurface>("subsurface"),
+    parameter<&M::getSubsurfaceRadius, &M::setSubsurfaceRadius>("subsurfaceRadius"),
     parameter<&M::getIridescence, &M::setIridescence>("iridescence"),
     parameter<&M::getIridescenceIor, &M::setIridescenceIor>("iridescenceIor"),
     parameter<&M::getIridescenceThicknessMinimum, &M::setIridescenceThicknessMinimum>(

@@ -12,7 +12,8 @@ namespace osgRayTrace::engine
 namespace
 {
 
-GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered)
+GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered,
+                            uint32_t mask = kEveryMask)
 {
     GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -20,6 +21,7 @@ GeometryHandle newTriangles(RTCDevice device, const Mesh& mesh, bool filtered)
     rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                mesh.triangles.data(), 0, sizeof(UVec3), mesh.triangles.size());
     if (filtered) setHitFilter(geometry.get());
+    rtcSetGeometryMask(geometry.get(), mask);
     return geometry;
 }
 
@@ -101,8 +103,7 @@ std::shared_ptr<StaticBvh> buildStatic(const std::shared_ptr<EmbreeDevice>& devi
     for (const StaticBvh::Member& member : built->members)
     {
         const GeometryHandle triangles =
-            newTriangles(device->handle(), *member.mesh, member.filtered);
-        if (member.hidden) rtcSetGeometryMask(triangles.get(), kHiddenMask);
+            newTriangles(device->handle(), *member.mesh, member.filtered, member.mask);
         rtcCommitGeometry(triangles.get());
         rtcAttachGeometryByID(built->scene.get(), triangles.get(), member.instance);
     }

@@ -49,7 +49,7 @@ struct StaticBvh
         uint32_t instance = 0;
         const Mesh* mesh = nullptr;
         bool filtered = false; ///< as in MeshBvh
-        bool hidden = false;   ///< whether camera rays pass it
+        uint32_t mask = 0;     ///< of the rays that meet it
     };
     using Members = std::vector<Member>;
 

@@ -32,9 +32,16 @@ using RayQueryContext = RTCRayQueryContext;
 using RayQueryContext = RTCIntersectContext;
 #endif
 
-/// The masks of rays and geometries: a ray tests a geometry if the masks have a bit in common. A
-/// geometry that is not hidden has at least the bit of the camera's rays.
-constexpr uint32_t kCameraMask = 1u, kHiddenMask = 2u, kOtherMask = 0xffffffffu;
+/// The bits of the masks of rays and geometries: a ray tests a geometry if the masks have a bit in
+/// common. All geometries have the bit of other rays.
+constexpr uint32_t kCameraMask = 1u, kOtherMask = 2u, kSubsurfaceMask = 4u, kEveryMask = 7u;
+
+/// Returns the mask of the rays of a rule.
+inline uint32_t maskOfRays(HitRule rule)
+{
+    if (rule.subsurfaceOnly) return kSubsurfaceMask;
+    return rule.passesHidden() ? kCameraMask : kOtherMask;
+}
 
 /// The context of a query, which its filters are handed.
 struct FilterContext : RayQueryContext

@@ -14,6 +14,8 @@ struct HitRule
         false;          ///< the ray goes as light does: it meets faces of which one side is culled
     bool solid = false; ///< every surface is hit, even if it is transparent or culled
     bool passesInterfaces = false; ///< boundaries of media are not there: shadow rays
+    bool subsurfaceOnly =
+        false; ///< only surfaces below which light walks are there, if Embree masks rays
 
     /// Returns true if the ray passes what is hidden from the camera: see isHiddenFromCamera.
     constexpr bool passesHidden() const { return culls && !solid; }

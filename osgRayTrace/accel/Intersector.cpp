@@ -138,11 +138,6 @@ void occludePackets(QueryArguments& arguments, RTCScene scene, const Lanes<int>&
     }
 }
 
-uint32_t maskOfRays(HitRule rule)
-{
-    return rule.passesHidden() ? kCameraMask : kOtherMask;
-}
-
 RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar, HitRule rule = {})
 {
     RTCRay ray;

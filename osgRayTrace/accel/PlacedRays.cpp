@@ -108,8 +108,7 @@ template <class Arguments> OSGRAYTRACE_INLINE void tracePlaced(const Arguments* 
 {
     const PlacedScene& placed =
         (*static_cast<const PlacedScenes*>(args->geometryUserPtr))[args->primID];
-    if (placed.hidden && static_cast<const FilterContext*>(args->context)->rule.passesHidden())
-        return;
+    if (!(placed.mask & maskOfRays(static_cast<const FilterContext*>(args->context)->rule))) return;
     if (placed.instance == kInvalid) return traceWidth<InPlace>(args, placed);
     args->context->instID[0] = placed.instance;
     traceWidth<InSpaceOfScene>(args, placed);

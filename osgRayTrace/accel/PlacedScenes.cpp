@@ -42,6 +42,7 @@ PlacedScenes::PlacedScenes(RTCDevice device)
     : _geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER))
 {
     rtcSetGeometryUserData(_geometry.get(), this);
+    rtcSetGeometryMask(_geometry.get(), kEveryMask);
     rtcSetGeometryBoundsFunction(_geometry.get(), giveBounds, nullptr);
     setPlacedQueries(_geometry.get());
     rtcCommitGeometry(_geometry.get()); // there may never be any placements
@@ -92,7 +93,7 @@ void PlacedScenes::put(std::size_t i, const Placement& placement)
     PlacedScene& placed = _scenes[i];
     placed.scene = placement.scene;
     placed.instance = placement.engineFromLocal ? placement.instance : kInvalid;
-    placed.hidden = placement.hidden;
+    placed.mask = placement.mask;
     const Affine m = placement.engineFromLocal ? inverse(*placement.engineFromLocal) : Affine();
     std::memcpy(placed.localFromEngine, &m.linear, 9 * sizeof(float));
     std::memcpy(placed.localFromEngine + 9, &m.translation, 3 * sizeof(float));

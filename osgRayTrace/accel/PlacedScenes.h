@@ -25,7 +25,7 @@ struct Placement
     const Outline* outline = nullptr;        ///< null: the scene's bounds
     const Affine* engineFromLocal = nullptr; ///< null: in place
     uint32_t instance = kInvalid; ///< instance that its hits are on; used with a transform
-    bool hidden = false;          ///< whether camera rays pass it
+    uint32_t mask = kEveryMask;   ///< of the rays that meet it
 };
 
 /// The part of a placement that a ray needs, in one cache line.
@@ -34,7 +34,7 @@ struct alignas(64) PlacedScene
     float localFromEngine[12]; ///< the columns of the transform
     RTCScene scene;
     uint32_t instance; ///< kInvalid: in place; its geometries are known by their own indices
-    bool hidden;       ///< whether camera rays pass it
+    uint32_t mask;     ///< of the rays that meet it
 };
 
 /// All placements of a scene as primitives of one user geometry, whose callbacks take rays into the

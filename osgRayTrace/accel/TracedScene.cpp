@@ -39,8 +39,8 @@ bool serves(const StaticBvh::Members& has, const StaticBvh::Members& wanted)
     return std::equal(has.begin(), has.end(), wanted.begin(), wanted.end(),
                       [](const StaticBvh::Member& a, const StaticBvh::Member& b)
                       {
-                          return a.instance == b.instance && a.mesh == b.mesh &&
-                                 a.hidden == b.hidden && (a.filtered || !b.filtered);
+                          return a.instance == b.instance && a.mesh == b.mesh && a.mask == b.mask &&
+                                 (a.filtered || !b.filtered);
                       });
 }
 
@@ -68,7 +68,7 @@ struct TracedScene::Implementation
     std::unique_ptr<HitFilter> filter;
     std::vector<bool> filtered; ///< by mesh: some instance has a partial material
     std::vector<bool> attached; ///< by instance: part of Embree's scenes
-    std::vector<bool> hidden;   ///< by instance: camera rays pass it
+    std::vector<uint8_t> masks; ///< by instance: of the rays that meet it
     BuildStatistics statistics;
 
     bool sameMeshes = false; ///< same instances of the same meshes as before
@@ -119,12 +119,15 @@ void TracedScene::Implementation::findAttached()
     for (std::size_t i = 0; i < invisible.size(); ++i)
         invisible[i] = isInvisible(scene->materials[i]);
     attached.resize(scene->instances.size());
-    hidden.resize(scene->instances.size());
+    masks.resize(scene->instances.size());
     for (std::size_t i = 0; i < attached.size(); ++i)
     {
         const Instance& instance = scene->instances[i];
         if (surfaces.isEmpty(instance.mesh) || invisible[instance.material]) continue;
-        hidden[i] = isHiddenFromCamera(scene->materials[instance.material]);
+        const Material& material = scene->materials[instance.material];
+        masks[i] =
+            static_cast<uint8_t>(kOtherMask | (isHiddenFromCamera(material) ? 0 : kCameraMask) |
+                                 (hasSubsurface(material) ? kSubsurfaceMask : 0));
         const bool invalid = instance.placed && reaches[i] == 0.0f;
         if (invalid) ++statistics.invalidInstances;
         attached[i] = !invalid;
@@ -135,7 +138,7 @@ void TracedScene::Implementation::findAttached()
 /// lights. Returns true if they do. A mesh that calls the filter without need does no harm.
 bool TracedScene::Implementation::takeStructures(const Implementation* old)
 {
-    if (!samePlaces || attached != old->attached || hidden != old->hidden) return false;
+    if (!samePlaces || attached != old->attached || masks != old->masks) return false;
     if (filtered.size() != old->filtered.size()) return false;
     for (std::size_t i = 0; i < filtered.size(); ++i)
         if (filtered[i] && !old->filtered[i]) return false;
@@ -223,7 +226,7 @@ void TracedScene::Implementation::makeFlat(const Implementation* old, BuildCount
         {
             const uint32_t mesh = scene->instances[i].mesh;
             members.push_back({static_cast<uint32_t>(i), scene->meshes[mesh].get(),
-                               bool(filtered[mesh]), bool(hidden[i])});
+                               bool(filtered[mesh]), masks[i]});
         }
     if (old && old->staticBvh && serves(old->staticBvh->members, members))
     {
@@ -251,9 +254,9 @@ void TracedScene::Implementation::makeTopLevel(const Implementation* old, BuildC
         placement.outline = meshBvh.outline ? &*meshBvh.outline : nullptr;
         placement.engineFromLocal = &instance.engineFromLocal;
         placement.instance = static_cast<uint32_t>(i);
-        placement.hidden = hidden[i];
+        placement.mask = masks[i];
         placement.hash = hashOf(meshBvh.serial, placement.instance, instance.engineFromLocal) +
-                         uint64_t(placement.hidden);
+                         uint64_t(placement.mask);
         placements.push_back(placement);
     }
     if (placements.empty() && staticBvh) return;

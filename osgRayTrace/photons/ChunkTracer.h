@@ -53,6 +53,7 @@ struct PhotonChunk
     uint64_t rays = 0;
     uint64_t dropped = 0;
     uint64_t cutWalks = 0;
+    uint64_t openWalks = 0;
 };
 
 /// Emits and follows the photons of one chunk. The loop, with the estimator above it, is in
@@ -137,6 +138,13 @@ private:
     bool isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const;
     void store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                int bounce);
+    // Photons below diffuse boundaries are in ChunkSubsurface.cpp.
+    void walkBelowSurfaces(PhotonPathBlock& block, SurfaceLanes& surface, int bounce);
+    bool walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& surface, int i, int bounce,
+                          RayHitBlock& leaving);
+    void leaveBodies(PhotonPathBlock& block, const RayHitBlock& leaving, LaneMask lanes,
+                     SurfaceLanes& surface);
+
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
     void scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
                     bool mustMirror);

@@ -197,6 +197,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
     pass->volume.points = PointMap(photons.points);
     pass->cutWalks = photons.cutWalks;
+    pass->openWalks = photons.openWalks;
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -40,8 +40,9 @@ struct PhotonPass
     VolumePhotons volume;
     uint64_t rays = 0;
     uint64_t dropped = 0;
-    uint64_t cutWalks = 0; ///< photons that ended within a medium
-    double seconds = 0.0;  ///< time to trace and to sort
+    uint64_t cutWalks = 0;  ///< photons that ended within a medium
+    uint64_t openWalks = 0; ///< walks below surfaces that have left their mesh
+    double seconds = 0.0;   ///< time to trace and to sort
 };
 
 constexpr int kDensityPhotons = 16;

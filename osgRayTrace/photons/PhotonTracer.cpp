@@ -58,6 +58,7 @@ void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
         store(block, surface, bounce > 0 ? stores : stores & _collided, bounce);
     if (!media && bounce + 2 > _inputs.options.maxBounces)
         return; // the next surface would be too far for any eye
+    if (_inputs.traced.traits().subsurface) walkBelowSurfaces(block, surface, bounce);
     scatter(block, surface, bounce);
 }
 
@@ -169,6 +170,7 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
         result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
         result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
         result.cutWalks += chunk.cutWalks;
+        result.openWalks += chunk.openWalks;
     }
     std::vector<std::size_t> begin(count + 1);
     for (std::size_t c = 0; c < count; ++c)

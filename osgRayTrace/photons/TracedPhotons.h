@@ -36,6 +36,7 @@ struct TracedPhotons
     std::vector<PhotonPoint> points; ///< in dense media
     uint64_t rays = 0;
     uint64_t cutWalks = 0;         ///< photons that ended within a medium: see kMostCollisions
+    uint64_t openWalks = 0;        ///< walks below surfaces that have left their mesh
     uint64_t dropped = 0;          ///< photons left out because their power is not finite
     std::vector<uint32_t> emitted; ///< by bin of PhotonGuide: number of photons guided there
 };

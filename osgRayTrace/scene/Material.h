@@ -140,6 +140,8 @@ struct MaterialDetail
     float iridescenceIor = 1.3f;
     Vec2 iridescenceThickness{100.0f, 400.0f}; ///< [nm] where the texture is 0 and 1
     float normalScale = 1.0f;
+    float subsurface = 0.0f;     ///< share of the diffuse base whose light enters the body
+    Vec3 subsurfaceRadius{1.0f}; ///< mean way between collisions below it [length of the scene]
 
     /// Textures by role, indices into Scene::textures or kInvalid. Those of the first four roles
     /// are members of Material.
@@ -314,6 +316,16 @@ inline bool isInterface(const Material& m)
            m.alphaTest == AlphaTest::Always && m.baseColorTexture == kInvalid &&
            m.transmissionTexture == kInvalid && !d.vertexColors && d.clearcoat <= 0.0f &&
            d.sheenColor == Vec3(0.0f) && d.diffuseTransmission <= 0.0f && d.iridescence <= 0.0f;
+}
+
+/// Returns true if light enters the body below a diffuse boundary of the surface: see
+/// SubsurfaceWalk.h.
+inline bool hasSubsurface(const Material& m)
+{
+    if (m.model != MaterialModel::Physical || !m.detail || m.detail->thinWalled) return false;
+    return m.detail->subsurface > 0.0f && m.detail->subsurfaceRadius != Vec3(0.0f) &&
+           m.metallic < 1.0f && (m.transmission < 1.0f || m.transmissionTexture != kInvalid) &&
+           m.baseColor != Vec3(0.0f);
 }
 
 /// Returns true if camera rays pass both sides of the surface, which other rays meet.

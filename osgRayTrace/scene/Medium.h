@@ -45,6 +45,17 @@ struct Atmosphere
     }
 };
 
+/// Returns the albedo with which a thick body has a colour in white light: s = 4.20863 c -
+/// sqrt(9.59217 + 41.6808 c + 17.7126 c^2) + 4.09712, albedo = (1 - s^2) / (1 - g s^2) [dEon16, eq.
+/// 53.7]. color, result: [0,1].
+inline double albedoOfColor(double color, double g)
+{
+    const double root = std::sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
+    const double s = 4.20863 * color - root + 4.09712;
+    const double albedo = (1.0 - s * s) / (1.0 - g * s * s);
+    return albedo < 0.0 ? 0.0 : albedo > 1.0 ? 1.0 : albedo;
+}
+
 /// Returns the absorption coefficient [1/length] of a body that leaves this share of white light
 /// after a distance [glTF20, KHR_materials_volume]. A share of 0 counts as 1e-6; a distance of 0
 /// absorbs nothing.

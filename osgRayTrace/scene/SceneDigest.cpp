@@ -17,7 +17,7 @@ namespace
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
 static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
-static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
+static_assert(sizeof(MaterialDetail) == 696 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
               sizeof(Medium) == 44 && sizeof(Atmosphere) == 60 && sizeof(Volume) == 232);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
@@ -108,7 +108,7 @@ void addDetail(const MaterialDetail& d, Hasher& hasher)
                d.clearcoatRoughness, d.clearcoatNormalScale, d.sheenColor, d.sheenRoughness,
                d.anisotropy, d.anisotropyRotation, d.diffuseTransmission,
                d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor, d.iridescenceThickness,
-               d.normalScale, d.textures);
+               d.normalScale, d.subsurface, d.subsurfaceRadius, d.textures);
     for (const TexturePlace& place : d.places)
         hasher.add(place.set, place.u, place.v, place.offset);
 }

@@ -52,6 +52,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
         traits.panes |= detail->thinWalled && material.transmission > 0.0f;
         traits.attenuation |= detail->absorbs();
         addMedium(material, *detail, traits);
+        traits.subsurface |= hasSubsurface(material);
         traits.specular |=
             detail->clearcoat > 0.0f && detail->clearcoatRoughness < kMirrorRoughness;
     }

@@ -32,6 +32,7 @@ struct SceneTraits
     bool deltaLights = false; ///< directional or point lights
     bool areaLights = false;  ///< parallelogram or mesh lights
     bool environment = false; ///< light from all around
+    bool subsurface = false;  ///< light enters some body below a diffuse boundary
     bool ground = false;      ///< rays from the eye see shadows on the ground
     size_t triangles = 0;     ///< counted once for each instance
 };

@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 // that has the scene graph, and stay there. A test sends an edit of each member.
 static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
 static_assert(sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
-static_assert(sizeof(MaterialDetail) == 680 && sizeof(Material) == 616);
+static_assert(sizeof(MaterialDetail) == 696 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
 static_assert(sizeof(Mesh) == 360);
@@ -102,7 +102,7 @@ template <class Archive> void fieldsOf(Archive& a, MaterialDetail& d)
     a(d.vertexColors, d.thinWalled, d.specular, d.specularColor, d.clearcoat, d.clearcoatRoughness,
       d.clearcoatNormalScale, d.sheenColor, d.sheenRoughness, d.anisotropy, d.anisotropyRotation,
       d.diffuseTransmission, d.diffuseTransmissionColor, d.iridescence, d.iridescenceIor,
-      d.iridescenceThickness, d.normalScale, d.textures);
+      d.iridescenceThickness, d.normalScale, d.subsurface, d.subsurfaceRadius, d.textures);
     for (TexturePlace& place : d.places)
         a(place.set, place.u, place.v, place.offset);
 }

@@ -191,8 +191,10 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
     if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
     _projection = PixelProjection(context.camera);
-    // What media scatter towards a ray is sampled anew in each pass.
-    if (context.options.integrator == IntegratorKind::Ppm && !traced->traits().media)
+    // What media scatter towards a ray, and where walks below surfaces leave them, is sampled anew
+    // in each pass.
+    const SceneTraits& traits = traced->traits();
+    if (context.options.integrator == IntegratorKind::Ppm && !traits.media && !traits.subsurface)
         _hitPoints.resize(2 * _pixels / kTilePixels);
 }
 

@@ -62,6 +62,7 @@ enum class MediumNote : uint8_t
     None,
     PathsInstead, ///< photons were asked for that bring all light, and a medium emits
     SingleOnly,   ///< Whitted's integrator has single scattering alone
+    DiffuseOnly,  ///< Whitted's integrator has no light below surfaces
 };
 
 /// The reasons why photons have less effect than a user may expect.
@@ -100,6 +101,7 @@ struct RenderProgress
     MediumNote mediumNote = MediumNote::None;
     uint64_t collisions = 0;     ///< with media
     uint64_t cutWalks = 0;       ///< paths that ended within a medium: see kMostCollisions
+    uint64_t openWalks = 0;      ///< walks below surfaces that have left their mesh
     uint64_t droppedSamples = 0; ///< samples left out: not finite, or above 1e30
     bool restarted = false;      ///< whether this call began a new image
     int newTiles = 0;            ///< tiles of this call, summed over its passes

@@ -113,6 +113,7 @@ void SessionState::preparePhotons(PassContext& context, int pass)
     progress.rays.photon += traced->rays;
     progress.droppedSamples += traced->dropped;
     progress.cutWalks += traced->cutWalks;
+    progress.openWalks += traced->openWalks;
     photonsCounted = pass + 1;
 }
 
@@ -287,6 +288,7 @@ void SessionState::addTileCounts()
         progress.droppedSamples += counts.droppedSamples;
         progress.collisions += counts.collisions;
         progress.cutWalks += counts.cutWalks;
+        progress.openWalks += counts.openWalks;
         counts = TileCounts();
     }
 }

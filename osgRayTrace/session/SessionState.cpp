@@ -96,11 +96,13 @@ Vec3 eyeOf(const View& view, const Scene& scene)
 /// Returns what the chosen integrator makes of the scene's media.
 MediumNote mediumNote(IntegratorKind wanted, IntegratorKind chosen, const SceneTraits& traits)
 {
-    if (!traits.media) return MediumNote::None;
+    const bool below = chosen == IntegratorKind::Whitted && traits.subsurface;
+    if (!traits.media) return below ? MediumNote::DiffuseOnly : MediumNote::None;
     const bool single = chosen == IntegratorKind::Whitted && traits.scattering;
     if (wanted != IntegratorKind::Automatic && photonUse(wanted) != photonUse(chosen))
         return MediumNote::PathsInstead;
-    return single ? MediumNote::SingleOnly : MediumNote::None;
+    if (single) return MediumNote::SingleOnly;
+    return below ? MediumNote::DiffuseOnly : MediumNote::None;
 }
 
 } // namespace
@@ -257,7 +259,8 @@ PassContext SessionState::contextOfPass(int pass) const
     if (filmOptions.moving) context.options.photonGuiding = false; // what photons lit is gone
     context.key = passKey(filmSeed, pass);
     const bool sharesPaths = progress.integrator == IntegratorKind::Ppm &&
-                             !filmScene->traits().media; // see PhotonState::choose
+                             !filmScene->traits().media &&
+                             !filmScene->traits().subsurface; // see PhotonState::choose
     const int paths = sharesPaths ? sharedPaths(pass) : pass;
     context.pathKey = passKey(filmSeed, paths);
     context.coneScale = 1.0f / std::sqrt(static_cast<float>(paths + 1));

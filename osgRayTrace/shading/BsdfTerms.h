@@ -72,7 +72,10 @@ struct Bsdf
     Vec3 diffuseTransmission{0.0f}; ///< share of light that the base diffuses to the other side
     float film = 0.0f;              ///< share of the surface that has a thin film
     float filmIor = 1.0f, filmThickness = 0.0f; ///< thickness [nm]
-    float filmRise = 0.0f;    ///< least a for which F' <= F + a (1 - F) at all angles
+    float filmRise = 0.0f;   ///< least a for which F' <= F + a (1 - F) at all angles
+    float subsurface = 0.0f; ///< share of diffuse whose light enters the body: see splitSubsurface
+    float baseShare = 1.0f;  ///< diffuse over the base colour
+    bool leavesBody = false; ///< true: the inner side of the base is all that there is: LayeredBsdf
     float baseAverage = 1.0f; ///< mean over cosine-weighted directions of what reaches the base
 
     /// Returns the index that radiance and directions change by if light is transmitted.

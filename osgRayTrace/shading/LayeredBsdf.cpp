@@ -270,11 +270,62 @@ std::optional<BsdfSample> sampleFacets(const Bsdf& b, Vec3 wo, float uLobe, floa
     return sample;
 }
 
+/// Returns f cos of light that has been within the body. wi: in the frame of the facets.
+BsdfValue evalLeaving(const Bsdf& b, Vec3 wi)
+{
+    BsdfValue value;
+    if (!(wi.z > 0.0f)) return value;
+    value.pdfW = squareToCosineHemispherePdf(wi.z);
+    value.fCos = b.diffuse * (value.pdfW * aboveBase(b, wi) / b.baseAverage);
+    return value;
+}
+
+std::optional<BsdfSample> sampleLeaving(const Bsdf& b, float u, float v)
+{
+    BsdfSample sample;
+    sample.wi = squareToCosineHemisphere(u, v);
+    const BsdfValue value = evalLeaving(b, toFacets(b, sample.wi));
+    if (!(value.pdfW > 0.0f)) return std::nullopt;
+    sample.pdfW = value.pdfW;
+    sample.weight = value.fCos / value.pdfW;
+    return sample;
+}
+
 } // namespace
+
+SubsurfaceSplit splitSubsurface(const Bsdf& b, Vec3 wo, Vec3 walks)
+{
+    SubsurfaceSplit split;
+    const Vec3 share = b.subsurface * walks;
+    split.local = b;
+    split.local.subsurface = 0.0f;
+    split.local.diffuse = b.diffuse * (Vec3(1.0f) - share);
+    split.leaving = leavingBody(b);
+    split.color = glm::clamp(b.diffuse / b.baseShare, 0.0f, 1.0f);
+    const Vec3 facets = toFacets(b, wo);
+    split.entering = share * (b.baseShare * aboveBase(b, facets));
+    const float whole = luminance(b.diffuse);
+    if (whole > 0.0f)
+        split.probability =
+            std::min(lobePmf(b, facets).base * (luminance(b.diffuse * share) / whole), 1.0f);
+    return split;
+}
+
+Bsdf leavingBody(const Bsdf& bsdf)
+{
+    Bsdf leaving = bsdf;
+    leaving.subsurface = 0.0f;
+    leaving.leavesBody = true;
+    leaving.diffuse = Vec3(1.0f);
+    leaving.alpha = 1.0f;
+    leaving.transmission = leaving.diffuseTransmission = Vec3(0.0f);
+    return leaving;
+}
 
 std::optional<BsdfSample> sampleLayered(const Bsdf& b, Vec3 wo, float uLobe, float u, float v,
                                         Transport transport)
 {
+    if (b.leavesBody) return sampleLeaving(b, u, v);
     std::optional<BsdfSample> sample = sampleFacets(b, toFacets(b, wo), uLobe, u, v, transport);
     if (!sample) return std::nullopt;
     sample->wi = fromFacets(b, sample->wi);
@@ -290,6 +341,7 @@ BsdfValue evalLayered(const Bsdf& b, Vec3 localO, Vec3 localI, Transport transpo
 {
     const Vec3 wo = toFacets(b, localO), wi = toFacets(b, localI);
     BsdfValue value;
+    if (b.leavesBody) return evalLeaving(b, wi);
     const LobePmf pmf = lobePmf(b, wo);
     if (!pmf.any) return value;
     if (wi.z > 0.0f)

@@ -40,10 +40,30 @@ namespace osgRayTrace::engine
 /// which the facets reflect most: see CoatShape. Light that is diffused to the other side leaves
 /// through an interface of the same kind, as from a leaf. If the surface is that of a clear body,
 /// too, the terms of both sides differ, and diffuse transmission is not the same both ways there.
+///
+/// Light that comes out of the body below a diffuse boundary, Bsdf::leavesBody, has met A of its
+/// way in already. What is left of f is diffuse/pi A(wi) / A_avg, whatever wo is.
 std::optional<BsdfSample> sampleLayered(const Bsdf& bsdf, Vec3 wo, float uLobe, float u, float v,
                                         Transport transport);
 BsdfValue evalLayered(const Bsdf& bsdf, Vec3 wo, Vec3 wi, Transport transport);
 SpecularLobes layeredLobes(const Bsdf& bsdf, Vec3 wo);
+
+/// Holds the two parts of a surface with Bsdf::subsurface.
+struct SubsurfaceSplit
+{
+    Bsdf local;               ///< what the surface scatters where light meets it
+    Bsdf leaving;             ///< what it does to light that leaves the body; diffuse is 1
+    Vec3 color{0.0f};         ///< base colour
+    Vec3 entering{0.0f};      ///< share of the light from or to wo that enters the body
+    float probability = 0.0f; ///< with which a sample of the whole surface would be of this part
+};
+
+/// Parts a surface for a direction. walks: 1 in the channels in which light enters the body, and 0
+/// in those in which the body is too dense, whose base stays as it is.
+SubsurfaceSplit splitSubsurface(const Bsdf& bsdf, Vec3 wo, Vec3 walks);
+
+/// Returns what light does that leaves the body of a surface, for the member leaving.
+Bsdf leavingBody(const Bsdf& bsdf);
 
 /// Returns A_avg of a surface, for the member of that name, by quadrature.
 float baseAverageOf(const Bsdf& bsdf);

@@ -40,9 +40,11 @@ struct MaterialRecord
     bool normalMap = false; ///< true: a texture decides on the shading normals
     bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
     bool interface = false; ///< true: nothing but the boundary of a medium: see isInterface
-    bool absorbs = false;   ///< true: the body below the surface absorbs light
-    uint8_t uvSets = 0;     ///< bit n: a texture reads set n, from kFirstMoreUvs on
-    Vec3 absorption{0.0f};  ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
+    bool subsurface = false;    ///< true: light enters the body: see hasSubsurface
+    bool absorbs = false;       ///< true: the body below the surface absorbs light
+    uint8_t uvSets = 0;         ///< bit n: a texture reads set n, from kFirstMoreUvs on
+    Vec3 subsurfaceSigma{0.0f}; ///< extinction below the surface [1/engine unit]
+    Vec3 absorption{0.0f}; ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
 };
 
 /// Returns what is left of light after a distance within the body [engine units].
@@ -116,6 +118,7 @@ private:
     void addAnisotropy(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addDiffuseTransmission(const Material& material, const MaterialPoint& point,
                                 Bsdf& bsdf) const;
+    void addSubsurface(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addFilm(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addLayers(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     Bsdf fixedFunction(const Material& material, const MaterialPoint& point) const;

@@ -142,6 +142,8 @@ TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them"
     CHECK(material->getAnisotropyRotation() == 0.0f);
     CHECK(material->getDiffuseTransmission() == 0.0f);
     CHECK(material->getDiffuseTransmissionColor() == osg::Vec3(1.0f, 1.0f, 1.0f));
+    CHECK(material->getSubsurface() == 0.0f);
+    CHECK(material->getSubsurfaceRadius() == osg::Vec3(1.0f, 1.0f, 1.0f));
     CHECK(material->getIridescence() == 0.0f);
     CHECK(material->getIridescenceIor() == 1.3f);
     CHECK(material->getIridescenceThicknessMinimum() == 100.0f);
@@ -151,6 +153,10 @@ TEST_CASE("material: the parameters of glTF's extensions begin as glTF has them"
     CHECK(material->getAttenuationDistance() == 0.0f);
     material->setSpecularColor(osg::Vec3(3.0f, -1.0f, 0.0f));
     CHECK(material->getSpecularColor() == osg::Vec3(3.0f, 0.0f, 0.0f));
+    material->setSubsurface(2.0f);
+    CHECK(material->getSubsurface() == 1.0f);
+    material->setSubsurfaceRadius(osg::Vec3(3.0f, -1.0f, 0.0f));
+    CHECK(material->getSubsurfaceRadius() == osg::Vec3(3.0f, 0.0f, 0.0f));
     material->setNormalScale(-20.0f);
     CHECK(material->getNormalScale() == -16.0f);
     PhysicalMaterial::TexturePlace place;
@@ -168,7 +174,7 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
 {
     const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
     std::vector<osg::ref_ptr<PhysicalMaterial>> all;
-    for (int i = 0; i < 11 + 21 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
+    for (int i = 0; i < 11 + 23 + 2 * PhysicalMaterial::NUMBER_OF_TEXTURES - 4; ++i)
     {
         all.push_back(new PhysicalMaterial);
     }
@@ -203,7 +209,9 @@ TEST_CASE("material: comparison sees every parameter", "[api][material]")
     all[29]->setIridescenceThicknessMinimum(200.0f);
     all[30]->setIridescenceThicknessMaximum(500.0f);
     all[31]->setClearcoatNormalScale(2.0f);
-    std::size_t next = 32;
+    all[32]->setSubsurface(0.5f);
+    all[33]->setSubsurfaceRadius(osg::Vec3(1.0f, 0.2f, 0.1f));
+    std::size_t next = 34;
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {
         const auto use = static_cast<PhysicalMaterial::TextureUse>(i);

@@ -114,6 +114,10 @@ TEST_CASE("graph hash: changes with what is traced, and with nothing else", "[br
         CHECK(changed());
         physical->setDiffuseTransmissionColor(osg::Vec3(0.5f, 1.0f, 1.0f));
         CHECK(changed());
+        physical->setSubsurface(0.5f);
+        CHECK(changed());
+        physical->setSubsurfaceRadius(osg::Vec3(1.0f, 0.2f, 0.1f));
+        CHECK(changed());
         physical->setIridescence(0.5f);
         CHECK(changed());
         physical->setIridescenceIor(1.5f);

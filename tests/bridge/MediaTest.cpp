@@ -184,6 +184,49 @@ TEST_CASE("medium volume: edits are seen", "[bridge]")
     edit("none", [&] { graph.root->removeChild(volume); });
 }
 
+TEST_CASE("subsurface: edits of colour, radius and weight are patched, and begin a new image",
+          "[bridge]")
+{
+    LiveGraph graph;
+    const osg::ref_ptr<PhysicalMaterial> wax = new PhysicalMaterial;
+    wax->setBaseColor({0.9f, 0.6f, 0.4f});
+    wax->setSubsurfaceRadius({0.3f, 0.2f, 0.1f});
+    const osg::ref_ptr<osg::ShapeDrawable> ball =
+        new osg::ShapeDrawable(new osg::Sphere({1.0f, 0.5f, 0.6f}, 0.6f));
+    ball->getOrCreateStateSet()->setAttribute(wax);
+    graph.root->addChild(ball);
+    LiveView view(graph.root.get());
+    view.image();
+    view.image();
+    REQUIRE(view.passes() == 2);
+    CHECK_FALSE(sceneTraits(*view.scene()).subsurface);
+    const auto edit = [&](const char* what, const std::function<void()>& change)
+    {
+        INFO(what);
+        const Statistics before = view.statistics();
+        const std::vector<float> last = view.lastImage();
+        change();
+        view.update();
+        const std::vector<float> image = view.image();
+        CHECK(view.passes() == 1);
+        CHECK(view.statistics().patches == before.patches + 1);
+        CHECK(view.statistics().conversions == before.conversions);
+        CHECK(differentPixels(image, last) > kRoundedPixels);
+        const int different = differentPixels(image, freshImage(*graph.root, 1));
+        CHECK(different >= 0);
+        CHECK(different <= kRoundedPixels);
+        view.image();
+        CHECK(view.passes() == 2);
+    };
+    edit("whole", [&] { wax->setSubsurface(1.0f); });
+    CHECK(sceneTraits(*view.scene()).subsurface);
+    edit("colour", [&] { wax->setBaseColor({0.5f, 0.6f, 0.9f}); });
+    edit("radius", [&] { wax->setSubsurfaceRadius({0.3f, 0.2f, 0.4f}); });
+    edit("weight", [&] { wax->setSubsurface(0.5f); });
+    edit("none", [&] { wax->setSubsurface(0.0f); });
+    edit("again", [&] { wax->setSubsurface(0.75f); });
+}
+
 TEST_CASE("fog as a medium: the setting, and the equal half distances of all modes", "[bridge]")
 {
     Fog fog;

@@ -87,6 +87,16 @@ TEST_CASE("physical material: anisotropy, diffuse transmission and films", "[bri
     CHECK(leaf.detail->diffuseTransmission == 0.5f);
     CHECK(leaf.detail->diffuseTransmissionColor == Vec3(0.1f, 0.2f, 0.3f));
     physical->setDiffuseTransmission(0.0f);
+    physical->setSubsurface(0.5f);
+    physical->setSubsurfaceRadius(osg::Vec3(1.0f, 0.2f, 0.1f));
+    const Material skin = materialOf(triangleGeometry(), physical);
+    REQUIRE(skin.detail);
+    CHECK(skin.detail->subsurface == 0.5f);
+    CHECK(skin.detail->subsurfaceRadius == Vec3(1.0f, 0.2f, 0.1f));
+    CHECK(hasSubsurface(skin));
+    physical->setSubsurfaceRadius(osg::Vec3(1.0f, 0.3f, 0.1f));
+    CHECK_FALSE(sameMaterial(skin, materialOf(triangleGeometry(), physical)));
+    physical->setSubsurface(0.0f);
     physical->setIridescence(0.75f);
     const Material film = materialOf(triangleGeometry(), physical);
     REQUIRE(film.detail);

@@ -128,6 +128,8 @@ void addDetails(PhysicalMaterial& material, Dice& dice, const float (&units)[N])
     if (dice.oneIn(3)) material.setAnisotropyRotation(strangeFloat(dice, 6.0, 6));
     if (dice.oneIn(3)) material.setDiffuseTransmission(dice.oneOf(units));
     if (dice.oneIn(3)) material.setDiffuseTransmissionColor(strangeVector(dice, 1.0, 6));
+    if (dice.oneIn(4)) material.setSubsurface(dice.oneOf(units));
+    if (dice.oneIn(4)) material.setSubsurfaceRadius(strangeVector(dice, 1.0, 6));
     if (dice.oneIn(3)) material.setIridescence(dice.oneOf(units));
     if (dice.oneIn(3)) material.setIridescenceIor(strangeFloat(dice, 3.0, 3));
     if (dice.oneIn(3)) material.setIridescenceThicknessMinimum(strangeFloat(dice, 1000.0, 3));

@@ -57,6 +57,8 @@ TEST_CASE("serializers: PhysicalMaterial keeps what few surfaces have", "[plugin
     material->setAnisotropyRotation(-3.3f);
     material->setDiffuseTransmission(0.2f);
     material->setDiffuseTransmissionColor(osg::Vec3(0.7f, 0.0f, 1.0f));
+    material->setSubsurface(0.3f);
+    material->setSubsurfaceRadius(osg::Vec3(1.1f, 1e-4f, 0.0f));
     material->setIridescence(0.4f);
     material->setIridescenceIor(1.1f);
     material->setIridescenceThicknessMinimum(0.0f);

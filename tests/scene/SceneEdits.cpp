@@ -251,6 +251,8 @@ std::vector<Edit> edits()
         ofDetail([](MaterialDetail& d) { d.anisotropyRotation = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.diffuseTransmission = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.diffuseTransmissionColor.y = 0.7f; }),
+        ofDetail([](MaterialDetail& d) { d.subsurface = 0.7f; }),
+        ofDetail([](MaterialDetail& d) { d.subsurfaceRadius.y = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.iridescence = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.iridescenceIor = 1.7f; }),
         ofDetail([](MaterialDetail& d) { d.normalScale = 0.7f; }),

@@ -56,8 +56,8 @@ void addPhysicalMaterial(Hasher& hasher, const PhysicalMaterial& material)
     hasher.add(material.getAnisotropy(), material.getAnisotropyRotation(),
                material.getDiffuseTransmission(), material.getDiffuseTransmissionColor(),
                material.getIridescence(), material.getIridescenceIor(),
-               material.getIridescenceThicknessMinimum(),
-               material.getIridescenceThicknessMaximum());
+               material.getIridescenceThicknessMinimum(), material.getIridescenceThicknessMaximum(),
+               material.getSubsurface(), material.getSubsurfaceRadius());
     addMedium(hasher, material.getInterior());
     for (int i = 0; i < PhysicalMaterial::NUMBER_OF_TEXTURES; ++i)
     {

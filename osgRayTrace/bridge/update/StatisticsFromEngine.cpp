@@ -63,6 +63,9 @@ const char* noteText(MediumNote note)
                "need them for it";
     case MediumNote::SingleOnly:
         return "whitted has single scattering alone: path has all of the light in media";
+    case MediumNote::DiffuseOnly:
+        return "whitted shows subsurface scattering as plain diffuse reflection: path follows the "
+               "light below surfaces";
     }
     return "";
 }
@@ -149,6 +152,10 @@ void setImageStatistics(Statistics& statistics, const RenderProgress& progress)
     if (!statistics.mediumNote.empty()) warnOnce(statistics.mediumNote);
     statistics.collisions = progress.collisions;
     statistics.cutWalks = progress.cutWalks;
+    statistics.openWalks = progress.openWalks;
+    if (progress.openWalks > 0)
+        warnOnce("light below a surface with subsurface has left its mesh through a hole: it is "
+                 "reflected there as by a diffuse surface");
     statistics.droppedSamples = progress.droppedSamples;
 }
 

@@ -13,6 +13,7 @@
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/shading/Bsdf.h"
+#include "osgRayTrace/shading/LayeredBsdf.h"
 
 #include <cmath>
 
@@ -105,11 +106,33 @@ struct Bounce
     LaneMask behindPanes = 0;  ///< lanes whose rays have passed panes on their way
     LaneMask carried = 0;      ///< glossy lanes whose light from lights photons carry on
     LaneMask terminating = 0;  ///< gathering lanes that go on by mirror-like lobes only
+    LaneMask subsurface = 0;   ///< general lanes whose light may enter the body: see PathSubsurface
+    bool below = false;        ///< the lanes are where walks below surfaces leave
     Bsdf* bsdfs = nullptr;     ///< BSDFs of general lanes
 };
 
 /// Counts a ray of each of the lanes in the debug outputs, if the tile has them.
 void countRays(Tile& tile, const PathBlock& block, LaneMask lanes);
+
+/// What parts surfaces with diffuse boundaries, from before light is added until after.
+struct SubsurfaceLanes
+{
+    LaneMask hidden = 0; ///< lanes that light samples and photons find nothing on
+    SubsurfaceSplit split[kLanes];
+};
+
+/// Leaves to the lanes of bounce.subsurface what their surfaces scatter by themselves.
+void partSubsurface(const Tile& tile, const PathBlock& block, Bounce& bounce,
+                    SubsurfaceLanes& lanes);
+
+/// Takes paths, by chance, to where their light leaves the bodies of these surfaces. The lanes of
+/// the bounce are then those of that place, and addLightAt has been called for them.
+void walkBelowSurfaces(Tile& tile, PathBlock& block, Bounce& bounce, const SubsurfaceLanes& lanes,
+                       PhotonUse use);
+
+/// Adds what photons and light samples bring to the surfaces of a bounce, or keeps the surfaces for
+/// later.
+void addLightAt(Tile& tile, PathBlock& block, Bounce& bounce, PhotonUse use);
 
 /// Sets u and v to the two Sobol numbers of a dimension for each lane.
 void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimension, FloatLanes& u,

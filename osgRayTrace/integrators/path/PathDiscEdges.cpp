@@ -111,7 +111,9 @@ void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
     SeenPlane* planes = tile.result.photons.gathered->planes;
     // Caustics are seldom even up to an edge: a share of the disc tells little of their light
     // there.
-    if (!planes || bounce.number > 0 || tile.context.photonUse != PhotonUse::Indirect) return;
+    if (!planes || bounce.number > 0 || bounce.below ||
+        tile.context.photonUse != PhotonUse::Indirect)
+        return;
     GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
     for (const int i : lanesIn(queries.lanes & ~bounce.collided))
     {

@@ -183,7 +183,7 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
 {
     sums.chosen = sums.compared = 0;
     GatheredPhotons& gathered = *tile.result.photons.gathered;
-    if (!gathered.planes || bounce.number > 0) return;
+    if (!gathered.planes || bounce.number > 0 || bounce.below) return;
     queries.lanes &= ~bounce.collided; // the pixel does not see their surfaces
     PixelCorner pixels[kLanes];
     for (const int i : lanesIn(queries.lanes))
@@ -216,7 +216,9 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
                       const FootprintSums& footprints)
 {
     SeenPlane* planes = tile.result.photons.gathered->planes;
-    if (!planes || !tile.result.photons.gathered->choosesPlanes || bounce.number > 0) return;
+    if (!planes || !tile.result.photons.gathered->choosesPlanes || bounce.number > 0 ||
+        bounce.below)
+        return;
     const float significance = tile.context.photonUse == PhotonUse::Caustics
                                    ? kCausticSignificance
                                    : kIndirectSignificance;

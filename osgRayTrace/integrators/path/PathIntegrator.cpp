@@ -46,7 +46,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
     const MaterialTable& materials = tile.context.traced->materials();
     const SceneTraits& traits = tile.context.traced->traits();
     const MediumTable* media = traits.media ? &tile.context.traced->media() : nullptr;
-    bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = 0;
+    bounce.diffuse = bounce.general = bounce.smooth = bounce.transmissive = bounce.subsurface = 0;
     for (const int i : lanesIn(bounce.surface.hits))
     {
         const MaterialRecord& record = materials[bounce.surface.material[i]];
@@ -72,6 +72,7 @@ void classify(const Tile& tile, const PathBlock& block, Bounce& bounce)
                         laneOf(bounce.normal, i), bounce.bsdfs[i]);
         if (bounce.bsdfs[i].isDiffuse() && bounce.bsdfs[i].diffuse == Vec3(0.0f)) continue;
         bounce.general |= 1u << i;
+        bounce.subsurface |= static_cast<LaneMask>(record.subsurface && front) << i;
         bounce.smooth |= static_cast<LaneMask>(isSmoothInterface(bounce.bsdfs[i])) << i;
         bounce.transmissive |= static_cast<LaneMask>(bounce.bsdfs[i].passesLight()) << i;
     }
@@ -144,6 +145,15 @@ LaneMask throughMedia(Tile& tile, int b, int number, bool last, PhotonUse use)
     return travelMedia(tile, block, number, last, use);
 }
 
+/// Adds the light of a bounce some of whose surfaces let light into their bodies.
+void addSubsurface(Tile& tile, PathBlock& block, Bounce& bounce, PhotonUse use)
+{
+    SubsurfaceLanes lanes;
+    partSubsurface(tile, block, bounce, lanes);
+    addLightAt(tile, block, bounce, use);
+    walkBelowSurfaces(tile, block, bounce, lanes, use);
+}
+
 /// Traces the paths of a block over one bounce.
 void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
 {
@@ -190,14 +200,10 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         return;
     }
     if (number == 1 && tile.reuse.active) reusePaths(tile, block, bounce);
-    if (use != PhotonUse::None) chooseGathering(block, bounce, use);
-    if (HitPoints* hits = tile.result.photons.hitPoints)
-        keepHitPoints(block, bounce, *hits);
+    if (bounce.subsurface)
+        addSubsurface(tile, block, bounce, use);
     else
-    {
-        if (use != PhotonUse::None) addPhotons(tile, block, bounce);
-        sampleLights(tile, block, bounce);
-    }
+        addLightAt(tile, block, bounce, use);
     if (number == 0 && tile.reuse.active) recordFirstSurfaces(tile, b, bounce);
     if (traced.lights().tree())
         block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);

@@ -23,6 +23,7 @@ struct TileCounts
     uint64_t droppedSamples = 0;
     uint64_t collisions = 0; ///< with media
     uint64_t cutWalks = 0;   ///< paths that ended within a medium: see kMostCollisions
+    uint64_t openWalks = 0;  ///< walks below surfaces that have left their mesh through a hole
 };
 
 /// The values that the debug channels show, by pixel of the tile: block * kLanes + lane.

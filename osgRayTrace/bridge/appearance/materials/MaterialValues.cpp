@@ -71,14 +71,15 @@ private:
     void add(const MaterialDetail& d)
     {
         _values.push_back(1u + uint32_t(d.vertexColors) + 2u * uint32_t(d.thinWalled));
-        for (const Vec3& color : {d.interior.sigmaA, d.interior.sigmaS, d.interior.emission,
-                                  d.specularColor, d.sheenColor, d.diffuseTransmissionColor})
+        for (const Vec3& color :
+             {d.interior.sigmaA, d.interior.sigmaS, d.interior.emission, d.specularColor,
+              d.sheenColor, d.diffuseTransmissionColor, d.subsurfaceRadius})
             add(color);
         for (const float value :
              {d.interior.anisotropy, d.specular, d.clearcoat, d.clearcoatRoughness,
               d.clearcoatNormalScale, d.sheenRoughness, d.normalScale, d.anisotropy,
               d.anisotropyRotation, d.diffuseTransmission, d.iridescence, d.iridescenceIor,
-              d.iridescenceThickness.x, d.iridescenceThickness.y})
+              d.iridescenceThickness.x, d.iridescenceThickness.y, d.subsurface})
             add(value);
         _values.push_back(static_cast<uint32_t>(d.interior.priority));
         _values.insert(_values.end(), d.textures.begin(), d.textures.end());

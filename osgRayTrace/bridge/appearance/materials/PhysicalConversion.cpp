@@ -65,7 +65,7 @@ bool needsDetail(const PhysicalMaterial& source)
            source.getSpecularColor() != osg::Vec3(1.0f, 1.0f, 1.0f) ||
            source.getClearcoat() > 0.0f || source.getSheenColor() != osg::Vec3() ||
            source.getAnisotropy() > 0.0f || source.getDiffuseTransmission() > 0.0f ||
-           source.getIridescence() > 0.0f;
+           source.getIridescence() > 0.0f || source.getSubsurface() > 0.0f;
 }
 
 MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inputs)
@@ -90,6 +90,8 @@ MaterialDetail detailOf(const PhysicalMaterial& source, const SurfaceInputs& inp
     detail.anisotropyRotation = source.getAnisotropyRotation();
     detail.diffuseTransmission = source.getDiffuseTransmission();
     detail.diffuseTransmissionColor = rgb(source.getDiffuseTransmissionColor());
+    detail.subsurface = source.getSubsurface();
+    detail.subsurfaceRadius = rgb(source.getSubsurfaceRadius());
     detail.iridescence = source.getIridescence();
     detail.iridescenceIor = source.getIridescenceIor();
     detail.iridescenceThickness =

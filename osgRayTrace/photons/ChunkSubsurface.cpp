@@ -1,0 +1,170 @@
+// ChunkSubsurface.cpp - photons that walk below diffuse boundaries: skin, wax. Layer: photons.
+// SPDX-License-Identifier: MIT
+//
+// Photons are stored where they land, and paths from the eye look them up where their walks leave a
+// body (PathSubsurface.cpp). So photons walk only to go on elsewhere: with the probability p that a
+// sample of the whole surface would have been one of its base, or else by the other lobes, with 1 /
+// (1 - p). The adjoint of A(wo) A(wi) / A_avg has A_avg where the path from the eye leaves, which
+// is where the photon enters:
+//
+//   power' = power A(wi) share / (A_avg p) |wi.n| / |wi.g|   where it enters
+//   weight = A(wo)                                           where it leaves, by the cosine law
+//
+// leaveSurfaces() corrects for the shading normals of one surface as if the photon had come to it
+// along the end of its walk: what it does with that direction is divided out before.
+#include "osgRayTrace/photons/ChunkTracer.h"
+
+#include "osgRayTrace/accel/MergeHits.h"
+#include "osgRayTrace/accel/NormalMaps.h"
+#include "osgRayTrace/accel/SubsurfaceWalk.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
+#include "osgRayTrace/accel/SurfaceTangents.h"
+#include "osgRayTrace/shading/LayeredBsdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// Returns |w.n| / |w.g|, 1 where it is not finite.
+float shadingFactor(Vec3 w, Vec3 normal, Vec3 geometric)
+{
+    const float factor = std::fabs(glm::dot(w, normal) / glm::dot(w, geometric));
+    return factor < kInfinity && factor > 0.0f ? factor : 1.0f;
+}
+
+Vec3 toLocal(Vec3 w, Vec3 normal)
+{
+    Vec3 tangent, bitangent;
+    frameOf(normal.x, normal.y, normal.z, tangent, bitangent);
+    return {glm::dot(w, tangent), glm::dot(w, bitangent), glm::dot(w, normal)};
+}
+
+float largestOf(Vec3 v)
+{
+    return std::max(v.x, std::max(v.y, v.z));
+}
+
+} // namespace
+
+/// Takes the photon of a lane below its surface, by chance, or leaves it the surface's other lobes.
+/// Returns whether it has come to a place where it leaves the body, which is in the lane of
+/// leaving.
+bool ChunkTracer::walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& surface, int i,
+                                   int bounce, RayHitBlock& leaving)
+{
+    const Vec3 normal = laneOf(_normal, i), geometric = laneOf(surface.geometricNormal, i);
+    const Vec3 direction = laneOf(block.direction, i), power = laneOf(block.power, i);
+    Bsdf whole = *_bsdfs[i];
+    if (whole.needsAxes()) alignLayers(_inputs.traced, _rays, surface, i, normal, whole);
+    SubsurfaceEntry entry;
+    entry.sigma = _inputs.traced.materials()[surface.material[i]].subsurfaceSigma;
+    entry.offset = surface.offset[i];
+    const SubsurfaceSplit split = splitSubsurface(whole, toLocal(-direction, normal),
+                                                  walkingChannels(entry.sigma, entry.offset));
+    const float p = split.probability;
+    if (!(p > 0.0f)) return false;
+    constexpr uint32_t kBelow = 0x736b696eu; // tells these numbers from all others
+    const uint32_t key =
+        hash(dimension(hash(kBelow, static_cast<uint32_t>(bounce))), block.photon[i]);
+    if (!(unitFloat(key) < p))
+    {
+        setLane(block.power, i, power / (1.0f - p));
+        _textured[i] = split.local;
+        _bsdfs[i] = &_textured[i];
+        return false;
+    }
+    const Vec3 entering = power * split.entering *
+                          (shadingFactor(direction, normal, geometric) / (whole.baseAverage * p));
+    entry.position = laneOf(trianglePoints(surface), i);
+    entry.normal = geometric;
+    entry.color = split.color;
+    entry.throughput = entering;
+    entry.least = largestOf(power);
+    entry.key = hash(key, 1u);
+    entry.direction = Vec2(unitFloat(hash(key, 2u)), unitFloat(hash(key, 3u)));
+    const SubsurfaceWalk walk = walkBelow(_inputs.traced, entry);
+    _chunk.rays += walk.rays;
+    _chunk.cutWalks += walk.end == SubsurfaceWalk::End::Cut;
+    setLane(block.power, i, walk.throughput);
+    switch (walk.end)
+    {
+    case SubsurfaceWalk::End::Left:
+        meetFromOutside(walk, leaving, i);
+        return true;
+    case SubsurfaceWalk::End::Open:
+        ++_chunk.openWalks;
+        _textured[i] = split.leaving;
+        _textured[i].diffuse = split.color * whole.baseAverage;
+        _bsdfs[i] = &_textured[i];
+        setLane(block.power, i, entering / shadingFactor(direction, normal, geometric));
+        return false;
+    default:
+        _general &= ~(1u << i);
+        return false;
+    }
+}
+
+/// Sets the surfaces of lanes to those at which their photons leave bodies.
+void ChunkTracer::leaveBodies(PhotonPathBlock& block, const RayHitBlock& leaving, LaneMask lanes,
+                              SurfaceLanes& surface)
+{
+    const TracedScene& traced = _inputs.traced;
+    SurfaceLanes found;
+    surfacesOf(traced.surfaces(), leaving, lanes, found);
+    if (traced.traits().normalMaps) applyNormalMaps(traced, leaving, found);
+    Vec3Lanes normals;
+    facingNormalLanes(leaving.ray, found, normals);
+    mergeHits(leaving, found, lanes, _rays, surface);
+    for (const int i : lanesIn(lanes))
+    {
+        const Vec3 inwards(leaving.ray.directionX[i], leaving.ray.directionY[i],
+                           leaving.ray.directionZ[i]);
+        _rays.ray.directionX[i] = inwards.x;
+        _rays.ray.directionY[i] = inwards.y;
+        _rays.ray.directionZ[i] = inwards.z;
+        setLane(block.direction, i, inwards);
+        const Vec3 normal = laneOf(normals, i);
+        setLane(block.power, i,
+                laneOf(block.power, i) /
+                    shadingFactor(inwards, normal, laneOf(surface.geometricNormal, i)));
+        const MaterialRecord& record = traced.materials()[surface.material[i]];
+        _textured[i] = leavingBody(
+            record.constant
+                ? record.front
+                : traced.materials().bsdf(surface.material[i],
+                                          materialPointOf(traced.surfaces()[surface.instance[i]],
+                                                          record, _rays.primitive[i], _rays.u[i],
+                                                          _rays.v[i], true, inwards)));
+        if (_textured[i].needsAxes()) alignLayers(traced, _rays, surface, i, normal, _textured[i]);
+        _textured[i].diffuse = Vec3(_textured[i].baseAverage);
+        _bsdfs[i] = &_textured[i];
+    }
+    _oneSided &= ~lanes;
+    _seen &= ~lanes;
+}
+
+/// Takes photons to where their light leaves the bodies of surfaces with diffuse boundaries.
+void ChunkTracer::walkBelowSurfaces(PhotonPathBlock& block, SurfaceLanes& surface, int bounce)
+{
+    LaneMask entering = 0;
+    for (const int i : lanesIn(_general & ~mirrorsOnly(bounce)))
+        if (_inputs.traced.materials()[surface.material[i]].subsurface &&
+            ((surface.front >> i) & 1u) != 0)
+            entering |= 1u << i;
+    if (!entering) return;
+    facingNormalLanes(_rays.ray, surface, _normal);
+    RayHitBlock leaving;
+    leaving.ray = _rays.ray;
+    std::fill(std::begin(leaving.geometry.v), std::end(leaving.geometry.v), kInvalid);
+    LaneMask left = 0;
+    for (const int i : lanesIn(entering))
+        left |= static_cast<LaneMask>(walkBelowSurface(block, surface, i, bounce, leaving)) << i;
+    if (left) leaveBodies(block, leaving, left, surface);
+}
+
+} // namespace osgRayTrace::engine
