@@ -238,3 +238,37 @@ TEST_CASE("capture splices: content that takes turns is never converted", "[gl][
     checkAsFresh(terrain, view);
     CHECK(view.statistics().conversions == before.conversions);
 }
+
+TEST_CASE("capture splices: squares that two nodes show are redone below one of them", "[gl][cull]")
+{
+    Terrain terrain;
+    terrain.tiles->getStateSet()->removeAttribute(osg::StateAttribute::PROGRAM);
+    const osg::ref_ptr<osg::StateSet> red = application::unlitColor(osg::Vec4(1, 0, 0, 1));
+    const osg::ref_ptr<osg::MatrixTransform> aside =
+        new osg::MatrixTransform(osg::Matrix::translate(0.0, 1.4, 0.4));
+    const osg::ref_ptr<osg::Group> others = new osg::Group;
+    for (int i = 0; i < kTiles; ++i)
+        others->addChild(terrain.tiles->getChild(unsigned(i)));
+    const osg::ref_ptr<application::Window> window = new application::Window;
+    for (const auto& shown : {window, terrain.window})
+        shown->states->setAttributeAndModes(red->getAttribute(osg::StateAttribute::MATERIAL));
+    others->setCullCallback(window.get());
+    aside->addChild(others);
+    terrain.root->addChild(aside);
+    TerrainView view(terrain);
+    checkAsFresh(terrain, view);
+    REQUIRE(view.statistics().conversion["converted.culled"] == 6);
+    const auto move = [&](unsigned int number, double y)
+    {
+        const auto tile = static_cast<osg::MatrixTransform*>(terrain.tiles->getChild(number));
+        tile->setMatrix(osg::Matrix::translate(0.6 * number - 2.1, y, 0.8));
+    };
+    checkEdit(terrain, view, true, [&] { terrain.window->first = 1; });
+    checkEdit(terrain, view, true, [&] { move(2, -1.2); }); // below both
+    checkEdit(terrain, view, true, [&] { window->first = 2; });
+    checkEdit(terrain, view, true, [&] { move(3, -1.4); });
+    checkEdit(terrain, view, true, [&] { terrain.window->count = 1; });
+    checkEdit(terrain, view, true, [&] { move(4, 0.9); }); // below one
+    checkEdit(terrain, view, true, [&] { terrain.window->count = 4; });
+    checkEdit(terrain, view, true, [&] { move(4, -0.9); });
+}

@@ -220,6 +220,19 @@ void CullWatch::replace(const osg::NodePath& path, CollectedGraph& graph, const 
     _plainAbove = nullptr;
 }
 
+void CullWatch::renumber(const osg::Geometry& geometry, const std::vector<uint32_t>& gone,
+                         uint32_t left)
+{
+    for (Watched& watched : _watched)
+        for (WatchedLeaf& leaf : watched.values)
+        {
+            if (leaf.use.geometry != &geometry) continue;
+            const auto before = std::lower_bound(gone.begin(), gone.end(), leaf.use.use);
+            leaf.use.use -= static_cast<uint32_t>(before - gone.begin());
+            leaf.use.uses = left;
+        }
+}
+
 /// Finds what differs in a leaf. Returns false if the graph must be converted.
 bool CullWatch::compare(CulledLeaf& before, WatchedLeaf& values, const CulledLeaf& now,
                         double eyeDistance, CullChanges& changes) const

@@ -59,6 +59,10 @@ public:
     /// there, in place of those that it has.
     void replace(const osg::NodePath& path, CollectedGraph& graph, const LeafUses& uses);
 
+    /// Takes that those uses of a geometry are gone which have these numbers, which ascend, and
+    /// that so many are left.
+    void renumber(const osg::Geometry& geometry, const std::vector<uint32_t>& gone, uint32_t left);
+
     bool isEmpty() const { return _watched.empty() && !_unknown; }
 
     /// Decides again, under the present conditions of the input. A call looks at about 1000

@@ -149,8 +149,7 @@ ConversionCause ScenePatcher::removeUses(const osg::Geometry& geometry, uint32_t
     for (const ClippedUse& use : _convertedGraph.clipped)
         if (use.geometry == &geometry) return ConversionCause::ClipPlanes;
     const bool all = uses.size() == traced.uses.size();
-    // Uses of cull traversals are known by their numbers, which would be others.
-    if (!all && (traced.culled || traced.raised)) return ConversionCause::OtherPaths;
+    if (!all && traced.raised) return ConversionCause::OtherPaths;
     if (!all && traced.remarks) return ConversionCause::Reported;
     const bool counted = std::any_of(traced.uses.begin(), traced.uses.end(),
                                      [](const TracedUse& use) { return use.effects != kInvalid; });
@@ -177,6 +176,9 @@ ConversionCause ScenePatcher::removeUses(const osg::Geometry& geometry, uint32_t
         for (const TracedUse& use : traced.uses)
             if (use.instance == kInvalid || meshes.count(_scene->instances[use.instance].mesh) == 0)
                 return ConversionCause::NotAnInstance;
+        if (traced.culled)
+            _convertedGraph.cullWatch.renumber(geometry, uses,
+                                               static_cast<uint32_t>(traced.uses.size()));
         return meshes.size() > 1 ? ConversionCause::NotAnInstance : ConversionCause::None;
     }
     for (const uint32_t mesh : meshes)
@@ -217,7 +219,7 @@ ConversionCause ScenePatcher::addUses(const CollectedGraph& graph,
     {
         const TracedGeometry& traced = known->second;
         const MeshRequest* request = _caches.geometries.lastRequest(*geometry.geometry);
-        if (traced.culled || geometry.isProxy() || !request ||
+        if (traced.culled != geometry.isCulled() || geometry.isProxy() || !request ||
             !(request->restart == geometry.restart) ||
             request->pointRadius != geometry.pointRadius ||
             !_caches.geometries.isCurrent(*geometry.geometry))
@@ -227,7 +229,11 @@ ConversionCause ScenePatcher::addUses(const CollectedGraph& graph,
                 !builder.addUse(geometry, use, static_cast<uint32_t>(traced.uses.size())))
                 return ConversionCause::NotAnInstance;
         if (report.remarks() > 0) return ConversionCause::Reported;
-        known->second.patchable &= geometry.watched;
+        if (traced.culled)
+            _convertedGraph.cullWatch.renumber(*geometry.geometry, {},
+                                               static_cast<uint32_t>(traced.uses.size()));
+        else
+            known->second.patchable &= geometry.watched;
     }
     else
         builder.add(geometry);
