@@ -3,6 +3,7 @@
 #include <osgRayTrace/Medium>
 
 #include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/scene/Medium.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace
 {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr float kLargestAnisotropy = 0.999f;
 
 /// Sets member to the value nearest to it within the range; leaves member if the value is NaN or
 /// infinite.
@@ -50,6 +50,8 @@ Medium::Medium(const Medium& other, const osg::CopyOp& copyop)
       _scattering(other._scattering),
       _emission(other._emission),
       _anisotropy(other._anisotropy),
+      _phase(other._phase),
+      _dropletSize(other._dropletSize),
       _priority(other._priority)
 {
 }
@@ -59,7 +61,10 @@ Medium::~Medium() = default;
 int Medium::compare(const Medium& other) const
 {
     const auto values = [](const Medium& m)
-    { return std::tie(m._absorption, m._scattering, m._emission, m._anisotropy, m._priority); };
+    {
+        return std::tie(m._absorption, m._scattering, m._emission, m._anisotropy, m._phase,
+                        m._dropletSize, m._priority);
+    };
     if (values(*this) < values(other)) return -1;
     return values(other) < values(*this) ? 1 : 0;
 }
@@ -90,11 +95,13 @@ void Medium::setMultiscatterColor(const osg::Vec3& color)
 {
     osg::Vec3 clamped;
     assign("multiscatter color", clamped, color, 1.0f);
+    const float g =
+        _phase == DROPLETS ? engine::meanCosine(engine::dropletPhase(_dropletSize)) : _anisotropy;
     for (int i = 0; i < 3; ++i)
     {
         const double c = double(clamped[i]);
         const double s = 4.20863 * c - std::sqrt(9.59217 + 41.6808 * c + 17.7126 * c * c) + 4.09712;
-        const double albedo = (1.0 - s * s) / (1.0 - double(_anisotropy) * s * s);
+        const double albedo = (1.0 - s * s) / (1.0 - double(g) * s * s);
         const float extinction = _absorption[i] + _scattering[i];
         _scattering[i] = extinction * static_cast<float>(std::clamp(albedo, 0.0, 1.0));
         _absorption[i] = extinction - _scattering[i];
@@ -108,7 +115,14 @@ void Medium::setEmission(const osg::Vec3& value)
 
 void Medium::setAnisotropy(float value)
 {
-    assign("anisotropy", _anisotropy, value, -kLargestAnisotropy, kLargestAnisotropy);
+    assign("anisotropy", _anisotropy, value, -engine::kLargestAnisotropy,
+           engine::kLargestAnisotropy);
+}
+
+void Medium::setDropletSize(float micrometres)
+{
+    assign("droplet size", _dropletSize, micrometres, engine::kSmallestDroplet,
+           engine::kLargestDroplet);
 }
 
 } // namespace osgRayTrace

@@ -215,7 +215,7 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     }
     setLane(block.power, i, power / survival);
     const Vec2 u = flightNumbers(photon, flights.bounce, stretch, FlightPhase);
-    const Vec3 after = samplePhase(medium.anisotropy, direction, u.x, u.y);
+    const Vec3 after = samplePhase(medium.phase, direction, u.x, u.y);
     setLane(block.direction, i, after);
     setRay(ray, i, plainOf(point), plainOf(after), 0.0f, kInfinity);
     flights.begin[i] = 0.0f;

@@ -55,8 +55,8 @@ Vec3 PointMap::gather(const PointQuery& query) const
                         const Vec3 off = point.position - query.position;
                         if (!(glm::dot(off, off) < radius2)) continue;
                         if (point.medium != query.medium || point.edges > query.mostEdges) continue;
-                        sum += point.power * evalPhase(query.anisotropy,
-                                                       glm::dot(point.direction, query.towards));
+                        sum += point.power *
+                               evalPhase(query.phase, glm::dot(point.direction, query.towards));
                     }
                 });
     return sum / (4.0f / 3.0f * kPi * radius2 * query.radius);

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/photons/BoxTree.h"
 
 #include <cstdint>
@@ -36,7 +37,7 @@ struct PointQuery
     Vec3 position{0.0f};
     Vec3 towards{0.0f}; ///< unit, in which the light goes on
     float radius = 0.0f;
-    float anisotropy = 0.0f; ///< of the medium
+    Phase phase; ///< of the medium
     MediumId medium = kOutside;
     uint32_t mostEdges = 0; ///< photons of longer paths are left out
 };

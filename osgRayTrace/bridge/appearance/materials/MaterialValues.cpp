@@ -75,10 +75,10 @@ private:
                                   d.specularColor, d.sheenColor, d.diffuseTransmissionColor})
             add(color);
         for (const float value :
-             {d.interior.anisotropy, d.specular, d.clearcoat, d.clearcoatRoughness,
-              d.clearcoatNormalScale, d.sheenRoughness, d.normalScale, d.anisotropy,
-              d.anisotropyRotation, d.diffuseTransmission, d.iridescence, d.iridescenceIor,
-              d.iridescenceThickness.x, d.iridescenceThickness.y})
+             {d.interior.anisotropy, d.interior.dropletSize, d.specular, d.clearcoat,
+              d.clearcoatRoughness, d.clearcoatNormalScale, d.sheenRoughness, d.normalScale,
+              d.anisotropy, d.anisotropyRotation, d.diffuseTransmission, d.iridescence,
+              d.iridescenceIor, d.iridescenceThickness.x, d.iridescenceThickness.y})
             add(value);
         _values.push_back(static_cast<uint32_t>(d.interior.priority));
         _values.insert(_values.end(), d.textures.begin(), d.textures.end());
