@@ -284,7 +284,7 @@ TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
         query.position = Vec3(random(), random(), random());
         query.towards = randomDirection(random);
         query.radius = 0.02f + 0.2f * random();
-        query.phase = 0.5f;
+        query.phase = k % 2 ? dropletPhase(10.0f) : Phase(0.5f);
         query.medium = 1;
         query.mostEdges = 3;
         Vec3d expected(0.0);
@@ -293,8 +293,8 @@ TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
             const Vec3 off = p.position - query.position;
             if (p.medium != 1 || p.edges > 3) continue;
             if (!(glm::dot(off, off) < query.radius * query.radius)) continue;
-            expected +=
-                Vec3d(p.power) * double(evalPhase(0.5f, glm::dot(p.direction, query.towards)));
+            expected += Vec3d(p.power) *
+                        double(evalPhase(query.phase, glm::dot(p.direction, query.towards)));
         }
         expected /= 4.0 / 3.0 * kPiD * std::pow(double(query.radius), 3.0);
         CHECK(double(map.gather(query).x) == Approx(expected.x).epsilon(1e-4).margin(1e-9));
