@@ -3,6 +3,7 @@
 #include <osgRayTrace/Medium>
 
 #include "osgRayTrace/bridge/common/WarnOnce.h"
+#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/scene/Medium.h"
 
 #include <algorithm>
@@ -18,7 +19,6 @@ namespace
 {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr float kLargestAnisotropy = 0.999f;
 
 /// Sets member to the value nearest to it within the range; leaves member if the value is NaN or
 /// infinite.
@@ -50,6 +50,8 @@ Medium::Medium(const Medium& other, const osg::CopyOp& copyop)
       _scattering(other._scattering),
       _emission(other._emission),
       _anisotropy(other._anisotropy),
+      _phase(other._phase),
+      _dropletSize(other._dropletSize),
       _priority(other._priority)
 {
 }
@@ -59,7 +61,10 @@ Medium::~Medium() = default;
 int Medium::compare(const Medium& other) const
 {
     const auto values = [](const Medium& m)
-    { return std::tie(m._absorption, m._scattering, m._emission, m._anisotropy, m._priority); };
+    {
+        return std::tie(m._absorption, m._scattering, m._emission, m._anisotropy, m._phase,
+                        m._dropletSize, m._priority);
+    };
     if (values(*this) < values(other)) return -1;
     return values(other) < values(*this) ? 1 : 0;
 }
@@ -90,9 +95,11 @@ void Medium::setMultiscatterColor(const osg::Vec3& color)
 {
     osg::Vec3 clamped;
     assign("multiscatter color", clamped, color, 1.0f);
+    const float g =
+        _phase == DROPLETS ? engine::meanCosine(engine::dropletPhase(_dropletSize)) : _anisotropy;
     for (int i = 0; i < 3; ++i)
     {
-        const double albedo = engine::albedoOfColor(double(clamped[i]), double(_anisotropy));
+        const double albedo = engine::albedoOfColor(double(clamped[i]), double(g));
         const float extinction = _absorption[i] + _scattering[i];
         _scattering[i] = extinction * static_cast<float>(albedo);
         _absorption[i] = extinction - _scattering[i];
@@ -106,7 +113,14 @@ void Medium::setEmission(const osg::Vec3& value)
 
 void Medium::setAnisotropy(float value)
 {
-    assign("anisotropy", _anisotropy, value, -kLargestAnisotropy, kLargestAnisotropy);
+    assign("anisotropy", _anisotropy, value, -engine::kLargestAnisotropy,
+           engine::kLargestAnisotropy);
+}
+
+void Medium::setDropletSize(float micrometres)
+{
+    assign("droplet size", _dropletSize, micrometres, engine::kSmallestDroplet,
+           engine::kLargestDroplet);
 }
 
 } // namespace osgRayTrace

@@ -163,6 +163,23 @@ template <auto kGet, auto kSet> constexpr Parameter interior(const char* name)
             }};
 }
 
+/// Returns a word of both the phase function and the size of droplets.
+std::string dropletsOf(const PhysicalMaterial& material)
+{
+    const Medium* medium = material.getInterior();
+    const bool droplets = medium && medium->getPhase() == Medium::DROPLETS;
+    return wordOf(droplets ? medium->getDropletSize() : 0.0f);
+}
+
+void setDroplets(PhysicalMaterial& material, const std::string& word)
+{
+    float size = 0.0f;
+    read(word, size);
+    if (!material.getInterior()) material.setInterior(new Medium);
+    material.getInterior()->setPhase(size > 0.0f ? Medium::DROPLETS : Medium::HENYEY_GREENSTEIN);
+    if (size > 0.0f) material.getInterior()->setDropletSize(size);
+}
+
 using M = PhysicalMaterial;
 constexpr Parameter kParameters[] = {
     parameter<&M::getAlpha, &M::setAlpha>("alpha"),
@@ -175,6 +192,7 @@ constexpr Parameter kParameters[] = {
     interior<&Medium::getScattering, &Medium::setScattering>("interiorScattering"),
     interior<&Medium::getEmission, &Medium::setEmission>("interiorEmission"),
     interior<&Medium::getAnisotropy, &Medium::setAnisotropy>("interiorAnisotropy"),
+    {"interiorDropletSize", dropletsOf, setDroplets},
     interior<&Medium::getPriority, &Medium::setPriority>("interiorPriority"),
     parameter<&M::getSpecular, &M::setSpecular>("specular"),
     parameter<&M::getSpecularColor, &M::setSpecularColor>("specularColor"),

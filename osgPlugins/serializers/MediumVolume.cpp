@@ -19,6 +19,11 @@ REGISTER_OBJECT_WRAPPER(osgRayTrace_Medium, new osgRayTrace::Medium, osgRayTrace
     ADD_VEC3_SERIALIZER(Emission, osg::Vec3());
     ADD_FLOAT_SERIALIZER(Anisotropy, 0.0f);
     ADD_INT_SERIALIZER(Priority, 0);
+    BEGIN_ENUM_SERIALIZER(Phase, HENYEY_GREENSTEIN);
+    ADD_ENUM_VALUE(HENYEY_GREENSTEIN);
+    ADD_ENUM_VALUE(DROPLETS);
+    END_ENUM_SERIALIZER();
+    ADD_FLOAT_SERIALIZER(DropletSize, 10.0f);
     writeInClassicLocale(*wrapper);
 }
 

@@ -52,7 +52,7 @@ Vec3 Scatterers::scattered(float cosTheta) const
     for (int i = 0; i < count; ++i)
     {
         const auto k = static_cast<std::size_t>(i);
-        sum += sigmaS[k] * evalPhase(anisotropy[k], cosTheta);
+        sum += sigmaS[k] * evalPhase(phases[k], cosTheta);
     }
     return sum;
 }
@@ -65,7 +65,7 @@ float Scatterers::pdf(float cosTheta) const
         const auto k = static_cast<std::size_t>(i);
         const float weight = sigmaS[k].x + sigmaS[k].y + sigmaS[k].z;
         weights += weight;
-        sum += weight * evalPhase(anisotropy[k], cosTheta);
+        sum += weight * evalPhase(phases[k], cosTheta);
     }
     return weights > 0.0f ? sum / weights : 0.0f;
 }
@@ -84,7 +84,7 @@ Vec3 Scatterers::sample(Vec3 direction, float choice, float u, float v) const
     float below = weightOf(0);
     while (chosen + 1 < count && choice * weights >= below)
         below += weightOf(++chosen);
-    return samplePhase(anisotropy[static_cast<std::size_t>(chosen)], direction, u, v);
+    return samplePhase(phases[static_cast<std::size_t>(chosen)], direction, u, v);
 }
 
 /// The pieces of a stretch on which the majorant is constant, one after the other.
@@ -284,11 +284,10 @@ Scatterers GridRay::scatterersAt(float distance) const
         const VolumePoint point =
             volumePoint(*grid.volume, transformPoint(grid.imageFromEngine, pointAt(distance)));
         const Vec3 albedo = glm::clamp(point.color, 0.0f, 1.0f);
-        scatterers.add(grid.sigmaS * albedo * amountOf(*grid.volume, point.opacity),
-                       grid.anisotropy);
+        scatterers.add(grid.sigmaS * albedo * amountOf(*grid.volume, point.opacity), grid.phase);
     }
     if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
-        scatterers.add(_around->sigmaS, _around->anisotropy);
+        scatterers.add(_around->sigmaS, _around->phase);
     return scatterers;
 }
 

@@ -53,14 +53,14 @@ struct GridSpan
 struct Scatterers
 {
     std::array<Vec3, kMostVolumes + 1> sigmaS;
-    std::array<float, kMostVolumes + 1> anisotropy;
+    std::array<Phase, kMostVolumes + 1> phases;
     int count = 0;
 
-    void add(Vec3 sigma, float g)
+    void add(Vec3 sigma, const Phase& phase)
     {
         if (sigma == Vec3(0.0f)) return;
         sigmaS[static_cast<std::size_t>(count)] = sigma;
-        anisotropy[static_cast<std::size_t>(count++)] = g;
+        phases[static_cast<std::size_t>(count++)] = phase;
     }
 
     /// Returns the sum of sigmaS times phase function [1/(sr length)].

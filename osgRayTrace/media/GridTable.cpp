@@ -57,8 +57,7 @@ GridRecord recordOf(const Volume& volume, float unit)
         record.sigmaS = usable(volume.medium.sigmaS * unit, kLargestCoefficient);
         record.sigmaT = record.sigmaS + usable(volume.medium.sigmaA * unit, kLargestCoefficient);
         record.emission = usable(volume.medium.emission * unit, kLargestEmission);
-        record.anisotropy =
-            std::clamp(volume.medium.anisotropy, -kLargestAnisotropy, kLargestAnisotropy);
+        record.phase = phaseOf(volume.medium);
         record.scatters = volume.medium.scatters();
         break;
     case VolumeLaw::Cells:

@@ -21,7 +21,7 @@ struct GridRecord
     std::shared_ptr<const GridBlocks> blocks;
     Affine imageFromEngine, tileFromEngine;
     Vec3 sigmaT{0.0f}, sigmaS{0.0f}, emission{0.0f}; ///< at an amount of 1, with VolumeLaw::Density
-    float anisotropy = 0.0f;
+    Phase phase;
     float depthPerWidth = 0.0f; ///< optical depth of an amount of 1 along a way of 1 in the unit
                                 ///< cube of the image, with other laws
     bool scatters = false;

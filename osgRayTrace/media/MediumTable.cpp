@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/media/MediumTable.h"
 
-#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/scene/Bodies.h"
 #include "osgRayTrace/scene/FogMedium.h"
 
@@ -33,7 +32,7 @@ MediumRecord recordOf(const Medium& medium, float unit)
     record.sigmaS = usable(medium.sigmaS, unit);
     record.sigmaT = record.sigmaS + usable(medium.sigmaA, unit);
     record.emission = usable(medium.emission, unit);
-    record.anisotropy = std::clamp(medium.anisotropy, -kLargestAnisotropy, kLargestAnisotropy);
+    record.phase = phaseOf(medium);
     record.priority = medium.priority;
     record.scatters = record.sigmaS != Vec3(0.0f);
     record.emits = record.emission != Vec3(0.0f);

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/media/MediumStack.h"
+#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/scene/Scene.h"
 
 #include <vector>
@@ -17,7 +18,7 @@ struct MediumRecord
     Vec3 sigmaT{0.0f};   ///< extinction: absorption and scattering
     Vec3 sigmaS{0.0f};   ///< scattering
     Vec3 emission{0.0f}; ///< radiance per length
-    float anisotropy = 0.0f;
+    Phase phase;
     float ior = 1.0f; ///< index of refraction of the body
     int priority = 0;
     bool scatters = false, emits = false;

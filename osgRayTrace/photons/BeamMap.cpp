@@ -111,7 +111,17 @@ OSGRAYTRACE_INLINE float left(float sigmaT, float distance)
     return exp2Lanes(select(below > -126.0f, below, -126.0f));
 }
 
+/// Returns the phase function of Henyey and Greenstein: PhaseFunction.h.
+OSGRAYTRACE_INLINE float henyeyGreenstein(float g, float cosine)
+{
+    const float size = std::fabs(g);
+    const float cosTheta = select(g < 0.0f, -cosine, cosine);
+    const float d = (1.0f - size) * (1.0f - size) + 2.0f * size * (1.0f - cosTheta);
+    return 0.25f * kInvPi * (1.0f - g * g) / (d * std::sqrt(d));
+}
+
 /// Adds what a piece scatters towards the rays that pass it.
+template <bool kDroplets>
 OSGRAYTRACE_INLINE void addCrossings(const BeamPiece& piece, const BeamQuery& q, LaneMask lanes,
                                      const Crossings& c, Vec3Lanes& radiance)
 {
@@ -122,11 +132,16 @@ OSGRAYTRACE_INLINE void addCrossings(const BeamPiece& piece, const BeamQuery& q,
     {
         const float root = std::sqrt(c.sine2[i]);
         const float sine = select(root > leastSine, root, leastSine);
-        // The phase function of light that turns from the beam to the ray: PhaseFunction.h.
-        const float g = q.anisotropy[i], size = std::fabs(g);
-        const float cosTheta = select(g < 0.0f, c.cosine[i], -c.cosine[i]);
-        const float d = (1.0f - size) * (1.0f - size) + 2.0f * size * (1.0f - cosTheta);
-        const float phase = 0.25f * kInvPi * (1.0f - g * g) / (d * std::sqrt(d));
+        // The light turns from the beam to the ray.
+        float phase = henyeyGreenstein(q.anisotropy[i], -c.cosine[i]);
+        if (kDroplets)
+        {
+            const float own = q.draineG[i], alpha = q.draineAlpha[i];
+            const float draine = henyeyGreenstein(own, -c.cosine[i]) *
+                                 (1.0f + alpha * c.cosine[i] * c.cosine[i]) /
+                                 (1.0f + alpha * (1.0f + 2.0f * own * own) * (1.0f / 3.0f));
+            phase += q.draineShare[i] * (draine - phase);
+        }
         const float way = c.along[i] - q.begin[i] + c.onBeam[i];
         const float weight = select(laneBit(lanes, i), phase * perWidth / sine, 0.0f);
         const PlainVec3 sigmaT = plainOf(q.sigmaT, i);
@@ -296,9 +311,10 @@ void BeamMap::find(const RayBundle& bundle, float distance, BeamPieces& found) c
 namespace
 {
 
-OSGRAYTRACE_KERNEL
-void gatherPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
-                  const BeamQuery& query, Vec3Lanes& radiance)
+/// Adds what pieces scatter towards the rays that pass them.
+template <bool kDroplets>
+OSGRAYTRACE_INLINE void addPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
+                                  const BeamQuery& query, Vec3Lanes& radiance)
 {
     const auto mostEdges = static_cast<int32_t>(query.mostEdges);
     Crossings crossings;
@@ -307,8 +323,22 @@ void gatherPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
         const BeamPiece& piece = pieces[first + static_cast<std::size_t>(k)];
         if (piece.edges > mostEdges) continue;
         const LaneMask lanes = crossingsOf(piece, query, crossings);
-        if (lanes) addCrossings(piece, query, lanes, crossings, radiance);
+        if (lanes) addCrossings<kDroplets>(piece, query, lanes, crossings, radiance);
     }
+}
+
+OSGRAYTRACE_KERNEL
+void gatherPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
+                  const BeamQuery& query, Vec3Lanes& radiance)
+{
+    addPieces<false>(pieces, first, near, query, radiance);
+}
+
+OSGRAYTRACE_KERNEL
+void gatherDroplets(const BeamPieces& pieces, std::size_t first, LaneMask near,
+                    const BeamQuery& query, Vec3Lanes& radiance)
+{
+    addPieces<true>(pieces, first, near, query, radiance);
 }
 
 } // namespace
@@ -321,7 +351,10 @@ void gatherBeams(const BeamPieces& pieces, const RayBundle& bundle, const BeamQu
     for (std::size_t first = 0; first < pieces.size(); first += kLanes)
     {
         const LaneMask near = pieces.near(first, bundle, query.radius);
-        if (near) gatherPieces(pieces, first, near, query, radiance);
+        if (near && query.hasDroplets)
+            gatherDroplets(pieces, first, near, query, radiance);
+        else if (near)
+            gatherPieces(pieces, first, near, query, radiance);
     }
 }
 

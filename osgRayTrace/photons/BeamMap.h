@@ -90,6 +90,8 @@ struct BeamQuery
     FloatLanes begin, end; ///< of the ray's stretch; power is attenuated from begin on
     Vec3Lanes sigmaT, sigmaS;
     FloatLanes anisotropy;
+    FloatLanes draineG, draineAlpha, draineShare; ///< of Phase; read if hasDroplets
+    bool hasDroplets = false;
     UintLanes medium;
     LaneMask lanes = 0;     ///< the values of other lanes are not read
     uint32_t mostEdges = 0; ///< beams of longer paths are left out

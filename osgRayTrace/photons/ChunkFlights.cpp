@@ -202,7 +202,7 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     if (!(flightNumbers(photon, flights.bounce, stretch, FlightLength).y < survival))
         return FlightEnd::Dies;
     const Vec2 u = flightNumbers(photon, flights.bounce, stretch, FlightPhase);
-    const Vec3 after = samplePhase(medium.anisotropy, direction, u.x, u.y);
+    const Vec3 after = samplePhase(medium.phase, direction, u.x, u.y);
     return leaveCollision(block, flights, i, point, after, power / survival);
 }
 

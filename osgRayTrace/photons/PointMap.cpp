@@ -64,7 +64,7 @@ template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const S
 
 Vec3 PointMap::gather(const PointQuery& query) const
 {
-    return sumOf(query, [&](float cosTheta) { return evalPhase(query.anisotropy, cosTheta); });
+    return sumOf(query, [&](float cosTheta) { return evalPhase(query.phase, cosTheta); });
 }
 
 Vec3 PointMap::gather(const PointQuery& query, const Scatterers& here) const

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "osgRayTrace/media/GridRay.h"
+#include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/photons/BoxTree.h"
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct PointQuery
     Vec3 position{0.0f};
     Vec3 towards{0.0f}; ///< unit, in which the light goes on
     float radius = 0.0f;
-    float anisotropy = 0.0f; ///< of the medium
+    Phase phase; ///< of the medium
     MediumId medium = kOutside;
     uint32_t mostEdges = 0; ///< photons of longer paths are left out
 };
@@ -56,7 +57,7 @@ public:
     Vec3 gather(const PointQuery& query) const;
 
     /// Returns the radiance that is scattered along the query's direction by what is at its
-    /// position. The query's anisotropy does not count.
+    /// position. The query's phase function does not count.
     Vec3 gather(const PointQuery& query, const Scatterers& here) const;
 
 private:

@@ -17,7 +17,9 @@ struct Medium
     Vec3 sigmaS{0.0f};       ///< scattering coefficient [1/length]
     Vec3 emission{0.0f};     ///< emitted radiance per length [W/(m^2 sr length)]
     float anisotropy = 0.0f; ///< mean cosine g of the phase function [Henyey41]
-    int priority = 0;        ///< the body of the highest priority is what fills overlapping bodies
+    /// Diameter [micrometres] of the water droplets whose phase function counts; 0: none.
+    float dropletSize = 0.0f;
+    int priority = 0; ///< the body of the highest priority is what fills overlapping bodies
 
     bool absorbs() const { return sigmaA != Vec3(0.0f); }
     bool scatters() const { return sigmaS != Vec3(0.0f); }
@@ -27,7 +29,8 @@ struct Medium
     bool operator==(const Medium& other) const
     {
         return sigmaA == other.sigmaA && sigmaS == other.sigmaS && emission == other.emission &&
-               anisotropy == other.anisotropy && priority == other.priority;
+               anisotropy == other.anisotropy && dropletSize == other.dropletSize &&
+               priority == other.priority;
     }
 };
 

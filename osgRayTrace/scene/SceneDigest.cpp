@@ -17,8 +17,8 @@ namespace
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
 static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
-static_assert(sizeof(MaterialDetail) == 696 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
-              sizeof(Medium) == 44 && sizeof(Atmosphere) == 60 && sizeof(Volume) == 232);
+static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
+              sizeof(Medium) == 48 && sizeof(Atmosphere) == 64 && sizeof(Volume) == 240);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
 #endif
@@ -98,7 +98,7 @@ void addFace(const FaceColors& face, Hasher& hasher)
 
 void addMedium(const Medium& m, Hasher& hasher)
 {
-    hasher.add(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.priority);
+    hasher.add(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.dropletSize, m.priority);
 }
 
 void addDetail(const MaterialDetail& d, Hasher& hasher)

@@ -34,7 +34,7 @@ bool isUsable(const Medium& m)
     const auto isSum = [](const Vec3& v)
     { return isFinitePosition(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; };
     return isSum(m.sigmaA) && isSum(m.sigmaS) && isSum(m.emission) && m.anisotropy > -1.0f &&
-           m.anisotropy < 1.0f;
+           m.anisotropy < 1.0f && std::isfinite(m.dropletSize) && m.dropletSize >= 0.0f;
 }
 
 /// Returns whether a volume is one that the library makes, but for its place.

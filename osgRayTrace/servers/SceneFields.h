@@ -15,12 +15,12 @@ namespace osgRayTrace::engine
 // Whoever adds a member to one of these adds it below, too. Names are for messages of the process
 // that has the scene graph, and stay there. A test sends an edit of each member.
 static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
-static_assert(sizeof(Medium) == 44 && sizeof(Atmosphere) == 60);
-static_assert(sizeof(MaterialDetail) == 696 && sizeof(Material) == 616);
+static_assert(sizeof(Medium) == 48 && sizeof(Atmosphere) == 64);
+static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
 static_assert(sizeof(Mesh) == 360);
-static_assert(sizeof(VolumeImage) == 64 && sizeof(Volume) == 232);
+static_assert(sizeof(VolumeImage) == 64 && sizeof(Volume) == 240);
 #endif
 
 template <> struct LastEnumerator<MaterialModel>
@@ -93,7 +93,7 @@ template <class Archive> void fieldsOf(Archive& a, Fog& f)
 
 template <class Archive> void fieldsOf(Archive& a, Medium& m)
 {
-    a(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.priority);
+    a(m.sigmaA, m.sigmaS, m.emission, m.anisotropy, m.dropletSize, m.priority);
 }
 
 template <class Archive> void fieldsOf(Archive& a, MaterialDetail& d)

@@ -1,5 +1,6 @@
 // MediaTest.cpp - Medium, MediumVolume, interiors and fog as a medium. Layer: tests.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/bridge/appearance/materials/MediumConversion.h"
 #include "osgRayTrace/bridge/changes/GraphHash.h"
 #include "osgRayTrace/scene/FogMedium.h"
 #include "osgRayTrace/scene/SceneTraits.h"
@@ -102,6 +103,25 @@ TEST_CASE("medium: bodies that are open are named", "[bridge]")
     CHECK(openBodies(new osg::ShapeDrawable(cylinder, noTop), 1.0f) == 0);
 }
 
+TEST_CASE("medium: droplets have a size, which counts with their phase function alone", "[bridge]")
+{
+    const osg::ref_ptr<ApiMedium> medium = hazeMedium();
+    CHECK(medium->getPhase() == ApiMedium::HENYEY_GREENSTEIN);
+    medium->setDropletSize(20.0f);
+    CHECK(engine::mediumOf(*medium).dropletSize == 0.0f);
+    medium->setPhase(ApiMedium::DROPLETS);
+    CHECK(engine::mediumOf(*medium).dropletSize == 20.0f);
+    CHECK(medium->compare(*hazeMedium()) != 0);
+    medium->setDropletSize(0.5f);
+    CHECK(medium->getDropletSize() == 5.0f);
+    medium->setDropletSize(1e9f);
+    CHECK(medium->getDropletSize() == 50.0f);
+    medium->setDropletSize(std::numeric_limits<float>::quiet_NaN());
+    CHECK(medium->getDropletSize() == 50.0f);
+    const osg::ref_ptr<ApiMedium> copy = new ApiMedium(*medium);
+    CHECK(copy->compare(*medium) == 0);
+}
+
 TEST_CASE("medium: the interior of a material, in place of its attenuation", "[bridge]")
 {
     const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
@@ -179,6 +199,8 @@ TEST_CASE("medium volume: edits are seen", "[bridge]")
     };
     edit("absorption", [&] { volume->getMedium()->setAbsorption({0.02f, 0.01f, 0.0f}); });
     edit("scattering", [&] { volume->getMedium()->setScattering({0.02f, 0.01f, 0.0f}); });
+    edit("droplets", [&] { volume->getMedium()->setPhase(ApiMedium::DROPLETS); });
+    edit("droplet size", [&] { volume->getMedium()->setDropletSize(30.0f); });
     edit("emission", [&] { volume->getMedium()->setEmission({0.0f, 0.1f, 0.0f}); });
     edit("radius", [&] { volume->setRadius(1.0f); });
     edit("none", [&] { graph.root->removeChild(volume); });

@@ -73,6 +73,98 @@ TEST_CASE("phase: samples have the density that is evaluated, and the mean cosin
     }
 }
 
+TEST_CASE("phase: droplets scatter all light, with the mean cosine that is stated",
+          "[integrators][media]")
+{
+    for (const float size : {1.0f, 5.0f, 10.0f, 20.0f, 50.0f, 90.0f})
+    {
+        const Phase phase = dropletPhase(size);
+        double sum = 0.0, cosine = 0.0;
+        constexpr int kSteps =
+            400000; // in log(1 - cosTheta), as the peak of 50 micrometres is narrow
+        const double least = std::log(1e-12), most = std::log(2.0);
+        for (int i = 0; i < kSteps; ++i)
+        {
+            const double t = std::exp(least + (i + 0.5) * (most - least) / kSteps);
+            // 1 - cosTheta has fewer digits as a float than the peak needs.
+            const auto exact = [t](double g)
+            { return (1 - g * g) / std::pow((1 - g) * (1 - g) + 2 * g * t, 1.5) / 12.566370614; };
+            const double z = 1.0 - t, draine = exact(double(phase.draineG)) *
+                                               double(draineFactor(phase, float(z)));
+            const double plain = exact(double(phase.g));
+            const double p = plain + double(phase.draineShare) * (draine - plain);
+            if (t > 1e-3) CHECK(double(evalPhase(phase, float(z))) == Approx(p).epsilon(1e-3));
+            sum += 6.283185307 * p * t * (most - least) / kSteps;
+            cosine += 6.283185307 * p * t * z * (most - least) / kSteps;
+        }
+        CAPTURE(size);
+        CHECK(sum == Approx(1.0).margin(1e-5));
+        CHECK(cosine == Approx(double(meanCosine(phase))).margin(2e-5));
+    }
+    CHECK(dropletPhase(1.0f) == dropletPhase(kSmallestDroplet));
+    CHECK(dropletPhase(90.0f) == dropletPhase(kLargestDroplet));
+    CHECK(dropletPhase(10.0f).g == Approx(0.988177).epsilon(1e-5)); // [Jendersie23]
+    CHECK(dropletPhase(10.0f).draineG == Approx(0.555671).epsilon(1e-5));
+    CHECK(dropletPhase(10.0f).draineAlpha == Approx(21.99552).epsilon(1e-5));
+    CHECK(dropletPhase(10.0f).draineShare == Approx(0.481955).epsilon(1e-5));
+    // More light goes back than to the side.
+    CHECK(evalPhase(dropletPhase(20.0f), -1.0f) > 2.0f * evalPhase(dropletPhase(20.0f), -0.3f));
+}
+
+TEST_CASE("phase: samples of droplets have the density that is evaluated",
+          "[integrators][statistics][media]")
+{
+    Uniform random(7);
+    const Vec3 axis = glm::normalize(Vec3(0.3f, -0.5f, 0.8f));
+    std::vector<Phase> phases = {dropletPhase(5.0f), dropletPhase(12.0f), dropletPhase(50.0f)};
+    for (const float g : {-0.7f, 0.02f, 0.5f, 0.9f})
+        for (const float alpha : {0.0f, 0.01f, 1.0f, 30.0f})
+        {
+            Phase draine(g);
+            draine.draineG = g;
+            draine.draineAlpha = alpha;
+            draine.draineShare = 1.0f;
+            phases.push_back(draine);
+        }
+    for (const Phase& phase : phases)
+    {
+        std::vector<double> counts(kCells);
+        Estimate cosine;
+        for (int i = 0; i < kSamples; ++i)
+        {
+            const float u = random(), v = random();
+            const double z = double(glm::dot(samplePhase(phase, axis, u, v), axis));
+            cosine.add(z);
+            // Cells of equal width in the square root, as droplets have a narrow peak.
+            count(counts, std::sqrt(std::max(0.0, 0.5 * (1.0 - z))), 0.0, 1.0);
+        }
+        const auto expected = expectedCounts(
+            [&phase](double s)
+            { return 4.0 * s * 6.283185307 * double(evalPhase(phase, float(1.0 - 2.0 * s * s))); },
+            0.0, 1.0);
+        CAPTURE(phase.draineG, phase.draineAlpha, phase.draineShare);
+        CHECK(chiSquareTest(counts, expected) > sidak(kSignificance, 19));
+        CHECK(cosine.agrees(double(meanCosine(phase)), 1e-5));
+    }
+}
+
+TEST_CASE("phase: Draine's function without alpha is that of Henyey and Greenstein",
+          "[integrators][media]")
+{
+    Phase phase(0.6f);
+    phase.draineG = 0.6f;
+    phase.draineShare = 0.5f;
+    for (int i = 0; i <= 20; ++i)
+    {
+        const float z = static_cast<float>(i) / 10.0f - 1.0f;
+        CHECK(evalPhase(phase, z) == Approx(evalPhase(0.6f, z)).epsilon(1e-6));
+    }
+    CHECK(meanCosine(phase) == Approx(0.6f));
+    CHECK(sampleDraine(0.6f, 0.0f, 0.3f) == sampleHenyeyGreenstein(0.6f, 0.3f));
+    CHECK(sampleDraine(0.6f, 2e-3f, 0.3f) ==
+          Approx(sampleHenyeyGreenstein(0.6f, 0.3f)).margin(2e-3));
+}
+
 TEST_CASE("free flights: three channels, and flights that must collide",
           "[integrators][statistics][media]")
 {

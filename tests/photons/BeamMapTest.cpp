@@ -157,6 +157,90 @@ TEST_CASE("beams: look-ups find what all beams hold", "[photons][media]")
         }
 }
 
+TEST_CASE("beams: light of droplets is spread by their phase function", "[photons][media]")
+{
+    Uniform random(11);
+    const Phase droplets = dropletPhase(15.0f);
+    const BeamMap map(randomBeams(random, 200), 0.4f);
+    RayBlock rays;
+    for (int i = 0; i < kLanes; ++i)
+        setRay(rays, i, plainOf(Vec3(random(), random(), -3.0f)),
+               plainOf(glm::normalize(Vec3(random() - 0.5f, random() - 0.5f, 1.0f))), 0.0f, 1e30f);
+    const RayBlock* block = &rays;
+    const LaneMask lanes = kAllLanes;
+    BeamPieces found;
+    const RayBundle bundle = bundleOf(&block, &lanes, 1);
+    map.find(bundle, 0.3f, found);
+    Vec3Lanes parts[3]; // Henyey and Greenstein's, Draine's, the mixture
+    for (int k = 0; k < 3; ++k)
+    {
+        BeamQuery query = queryOf(rays, 6.0f, 0.3f, droplets.g);
+        query.hasDroplets = k > 0;
+        for (int i = 0; i < kLanes; ++i)
+        {
+            query.draineG[i] = droplets.draineG;
+            query.draineAlpha[i] = droplets.draineAlpha;
+            query.draineShare[i] = k == 1 ? 1.0f : droplets.draineShare;
+        }
+        gatherBeams(found, bundle, query, parts[k]);
+    }
+    float most = 0.0f;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const Vec3 plain = laneOf(parts[0], i), draine = laneOf(parts[1], i);
+        const Vec3 mixed = glm::mix(plain, draine, droplets.draineShare);
+        most = std::max(most, mixed.x);
+        for (int c = 0; c < 3; ++c)
+            CHECK(laneOf(parts[2], i)[c] == Approx(mixed[c]).epsilon(1e-4).margin(1e-7));
+    }
+    CHECK(most > 0.0f);
+}
+
+TEST_CASE("beams: one beam and one ray have the light that the phase function of droplets says",
+          "[photons][media]")
+{
+    const Phase droplets = dropletPhase(8.0f);
+    PhotonBeam beam;
+    beam.origin = Vec3(-2.0f, 0.0f, 0.0f);
+    beam.direction = Vec3(1, 0, 0);
+    beam.length = 4.0f;
+    beam.power = Vec3(1.0f);
+    beam.medium = kOutside;
+    const BeamMap map({beam}, 0.4f);
+    for (const float degrees : {30.0f, 90.0f, 140.0f, 170.0f})
+    {
+        const float turn = glm::radians(degrees);
+        const Vec3 along(std::cos(turn), std::sin(turn), 0.0f); // of the light that is seen
+        RayBlock rays;
+        for (int i = 0; i < kLanes; ++i)
+            setRay(rays, i, plainOf(along * 1.5f), plainOf(-along), 0.0f, 1e30f);
+        float found[2];
+        for (const int k : {0, 1})
+        {
+            BeamQuery query = queryOf(rays, 3.0f, 0.1f, k ? droplets.g : 0.0f);
+            query.hasDroplets = k == 1;
+            for (int i = 0; i < kLanes; ++i)
+            {
+                query.draineG[i] = droplets.draineG;
+                query.draineAlpha[i] = droplets.draineAlpha;
+                query.draineShare[i] = droplets.draineShare;
+            }
+            const RayBlock* block = &rays;
+            const LaneMask lanes = kAllLanes;
+            BeamPieces pieces;
+            const RayBundle bundle = bundleOf(&block, &lanes, 1);
+            map.find(bundle, 0.1f, pieces);
+            Vec3Lanes radiance;
+            gatherBeams(pieces, bundle, query, radiance);
+            found[k] = laneOf(radiance, 0).x;
+        }
+        CAPTURE(degrees);
+        REQUIRE(found[0] > 0.0f);
+        CHECK(found[1] / found[0] ==
+              Approx(evalPhase(droplets, std::cos(turn)) / evalPhase(0.0f, 0.0f)).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("beams: rays along a beam, and beams without length, stay finite", "[photons][media]")
 {
     std::vector<PhotonBeam> beams(3);
@@ -200,7 +284,7 @@ TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
         query.position = Vec3(random(), random(), random());
         query.towards = randomDirection(random);
         query.radius = 0.02f + 0.2f * random();
-        query.anisotropy = 0.5f;
+        query.phase = k % 2 ? dropletPhase(10.0f) : Phase(0.5f);
         query.medium = 1;
         query.mostEdges = 3;
         Vec3d expected(0.0);
@@ -209,8 +293,8 @@ TEST_CASE("points: look-ups find what all points hold", "[photons][media]")
             const Vec3 off = p.position - query.position;
             if (p.medium != 1 || p.edges > 3) continue;
             if (!(glm::dot(off, off) < query.radius * query.radius)) continue;
-            expected +=
-                Vec3d(p.power) * double(evalPhase(0.5f, glm::dot(p.direction, query.towards)));
+            expected += Vec3d(p.power) *
+                        double(evalPhase(query.phase, glm::dot(p.direction, query.towards)));
         }
         expected /= 4.0 / 3.0 * kPiD * std::pow(double(query.radius), 3.0);
         CHECK(double(map.gather(query).x) == Approx(expected.x).epsilon(1e-4).margin(1e-9));

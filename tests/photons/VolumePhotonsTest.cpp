@@ -33,6 +33,14 @@ std::vector<VolumeScene> volumeScenes()
     SceneBuilder& dense = scenes.back().builder;
     dense.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(mediumOf(0.4f, 0.95f), 1.4f));
     dense.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mediumOf(0.5f, 0.9f, 0.5f)));
+
+    // Photons are points in the ball, and beams in the box.
+    scenes.push_back({"droplets", cornellBox()});
+    SceneBuilder& droplets = scenes.back().builder;
+    Medium cloud = mediumOf(0.4f, 0.95f), mist = mediumOf(0.01f, 0.9f);
+    cloud.dropletSize = mist.dropletSize = 5.0f;
+    droplets.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(cloud, 1.4f));
+    droplets.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mist));
     return scenes;
 }
 
@@ -93,6 +101,43 @@ TEST_CASE("volume photons: the image of a light in a mirror shines in fog",
     const double both = kOfLight + kOfImage;
     const Estimate paths = measure(traced, alongMirror(), optionsOf(IntegratorKind::Path, 2), 8);
     CHECK(paths.agrees(kOfLight, 0.002 * both)); // what photons are for
+    for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
+    {
+        RenderOptions options = optionsOf(kind, 2);
+        options.photons = 20000;
+        options.photonRadius = 0.2f;
+        const Estimate seen = measure(traced, alongMirror(), options, 16);
+        CAPTURE(int(kind), both, seen.mean(), seen.standardError());
+        CHECK(seen.agrees(both, 0.003 * both));
+        CHECK(seen.standardError() < 0.02 * both);
+    }
+}
+
+TEST_CASE("volume photons: the image of a light in a mirror shines in droplets",
+          "[photons][statistics][media]")
+{
+    SceneBuilder builder = mirrorInFog();
+    Atmosphere fog = *builder.scene->atmosphere;
+    fog.medium.dropletSize = 8.0f;
+    builder.scene->atmosphere = std::make_shared<Atmosphere>(fog);
+    const Phase phase = dropletPhase(8.0f);
+    const auto airLight = [&phase](double across) // as for kOfLight and kOfImage
+    {
+        double sum = 0.0;
+        for (int i = 0; i < 10000; ++i)
+        {
+            const double t = (i + 0.5) * 1e-3, d = std::hypot(t - 5.0, across);
+            const double p = double(evalPhase(phase, static_cast<float>((5.0 - t) / d)));
+            sum += 1e-3 * 0.1 * double(kMirrorAlbedo) * p * std::exp(-0.1 * (t + d)) / (d * d);
+        }
+        return sum;
+    };
+    const double ofLight = airLight(1.0), both = ofLight + airLight(3.0);
+    const auto traced = builder.build();
+    const Estimate paths = measure(traced, alongMirror(), optionsOf(IntegratorKind::Path, 2), 32);
+    CAPTURE(ofLight, both, paths.mean(), paths.standardError());
+    CHECK(paths.agrees(ofLight, 0.002 * both));
+    CHECK(paths.standardError() < 0.02 * both);
     for (const IntegratorKind kind : {IntegratorKind::Sppm, IntegratorKind::PhotonCaustics})
     {
         RenderOptions options = optionsOf(kind, 2);

@@ -266,6 +266,8 @@ TEST_CASE("serializers: MediumVolume keeps its medium and its radius", "[plugins
     medium->setEmission(osg::Vec3(0.0f, 0.0f, 0.125f));
     medium->setAnisotropy(-0.75f);
     medium->setPriority(-3);
+    medium->setPhase(osgRayTrace::Medium::DROPLETS);
+    medium->setDropletSize(12.5f);
     const osg::ref_ptr<osgRayTrace::MediumVolume> volume = new osgRayTrace::MediumVolume(medium);
     volume->setRadius(12.5f);
     for (const Format& format : kFormats)

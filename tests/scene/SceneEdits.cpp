@@ -262,6 +262,7 @@ std::vector<Edit> edits()
         ofDetail([](MaterialDetail& d) { d.interior.sigmaS.x = 7.0f; }),
         ofDetail([](MaterialDetail& d) { d.interior.emission.z = 7.0f; }),
         ofDetail([](MaterialDetail& d) { d.interior.anisotropy = 0.7f; }),
+        ofDetail([](MaterialDetail& d) { d.interior.dropletSize = 7.0f; }),
         ofDetail([](MaterialDetail& d) { d.interior.priority = 7; }),
         ofDetail([](MaterialDetail& d) { d.sheenColor.y = 0.7f; }),
         ofDetail([](MaterialDetail& d) { d.iridescenceThickness.y = 7.0f; }),

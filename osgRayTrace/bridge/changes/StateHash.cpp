@@ -203,7 +203,8 @@ void addMedium(Hasher& hasher, const osgRayTrace::Medium* medium)
     hasher.addObject(medium);
     if (!medium) return;
     hasher.add(medium->getAbsorption(), medium->getScattering(), medium->getEmission(),
-               medium->getAnisotropy(), medium->getPriority());
+               medium->getAnisotropy(), medium->getPhase(), medium->getDropletSize(),
+               medium->getPriority());
 }
 
 void addImage(Hasher& hasher, const osg::Image* image)

@@ -31,7 +31,12 @@ BeamQuery queryOf(const PassContext& context, const MediumSegments& segments, La
         query.end[i] = used ? segments.parts[i].end : 0.0f;
         setLane(query.sigmaT, i, medium.sigmaT);
         setLane(query.sigmaS, i, medium.sigmaS);
-        query.anisotropy[i] = medium.anisotropy;
+        const Phase& phase = medium.phase;
+        query.anisotropy[i] = phase.g;
+        query.draineG[i] = phase.draineG;
+        query.draineAlpha[i] = phase.draineAlpha;
+        query.draineShare[i] = phase.draineShare;
+        query.hasDroplets |= phase.draineShare > 0.0f;
         query.medium[i] = used ? segments.media[i] : kOutside;
     }
     return query;

@@ -111,7 +111,7 @@ void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput, const Scatt
     query.towards = -directionOf(_block.rays.ray, i);
     query.radius = context.pointRadius;
     query.medium = _segments.media[i];
-    query.anisotropy = _media[query.medium].anisotropy;
+    query.phase = _media[query.medium].phase;
     query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - _number);
     const PointMap& points = context.volumePhotons->points;
     const Vec3 radiance = throughput * (here ? points.gather(query, *here) : points.gather(query));
@@ -185,9 +185,9 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const float found = collisionProbability(_tile.context, _segments, i);
     if (!survives(i, throughput)) return End::Dies;
     const Vec2 u = numbers.at(MediumPhase);
-    const Vec3 after = samplePhase(medium.anisotropy, before, u.x, u.y);
+    const Vec3 after = samplePhase(medium.phase, before, u.x, u.y);
     // The density with which collisions find the sky, over that of SegmentLights' choice of place.
-    _block.pdfW[i] = found * evalPhase(medium.anisotropy, glm::dot(before, after));
+    _block.pdfW[i] = found * evalPhase(medium.phase, glm::dot(before, after));
     _block.flags[i] = flagsAfterCollision(i).word();
     spawn(i, {point, 0.0f}, after);
     return End::GoesOn;

@@ -146,7 +146,7 @@ float Segments::phaseDensity(int i, float distance, float cosTheta) const
 {
     if (const GridRay* grids = _segments.gridsOf(i))
         return grids->scatterersAt(distance).pdf(cosTheta);
-    return evalPhase(mediumOf(i).anisotropy, cosTheta);
+    return evalPhase(mediumOf(i).phase, cosTheta);
 }
 
 /// Adds the light of the samples that the lanes see.
@@ -168,7 +168,7 @@ void Segments::finish(LaneMask visible)
                         laneOf(_segments.throughput, i) * scattered * _samples.weight[i]);
             continue;
         }
-        const float phase = evalPhase(medium.anisotropy, cosTheta);
+        const float phase = evalPhase(medium.phase, cosTheta);
         const Vec3 sum = laneOf(_segments.throughput, i) * medium.sigmaS * _places[i].weight *
                          light * (phase * _samples.weight[i]);
         setLane(_radiance, i, laneOf(_radiance, i) + sum);

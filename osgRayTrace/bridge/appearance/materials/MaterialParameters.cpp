@@ -55,6 +55,19 @@ const osgRayTrace::Medium& interiorOr(const PhysicalMaterial& material)
     return material.getInterior() ? *material.getInterior() : **none;
 }
 
+/// Returns the size of droplets; 0: the medium has none.
+float dropletsOf(const osgRayTrace::Medium& medium)
+{
+    return medium.getPhase() == osgRayTrace::Medium::DROPLETS ? medium.getDropletSize() : 0.0f;
+}
+
+void setDroplets(osgRayTrace::Medium& medium, float size)
+{
+    medium.setPhase(size > 0.0f ? osgRayTrace::Medium::DROPLETS
+                                : osgRayTrace::Medium::HENYEY_GREENSTEIN);
+    if (size > 0.0f) medium.setDropletSize(size);
+}
+
 const Parameter kParameters[] = {
     {"baseColor", 3, 0.0, 1.0,
      [](PhysicalMaterial& m, const Values& v) { m.setBaseColor(colorOf(v)); },
@@ -99,6 +112,9 @@ const Parameter kParameters[] = {
     {"interiorAnisotropy", 1, -0.999, 0.999,
      [](PhysicalMaterial& m, const Values& v) { interiorOf(m).setAnisotropy(numberOf(v)); },
      [](const PhysicalMaterial& m) { return valuesOf(interiorOr(m).getAnisotropy()); }},
+    {"interiorDropletSize", 1, 0.0, 50.0,
+     [](PhysicalMaterial& m, const Values& v) { setDroplets(interiorOf(m), numberOf(v)); },
+     [](const PhysicalMaterial& m) { return valuesOf(dropletsOf(interiorOr(m))); }},
     {"interiorPriority", 1, -1e6, 1e6,
      [](PhysicalMaterial& m, const Values& v)
      { interiorOf(m).setPriority(static_cast<int>(std::lround(v[0]))); },

@@ -76,10 +76,10 @@ private:
               d.sheenColor, d.diffuseTransmissionColor, d.subsurfaceRadius})
             add(color);
         for (const float value :
-             {d.interior.anisotropy, d.specular, d.clearcoat, d.clearcoatRoughness,
-              d.clearcoatNormalScale, d.sheenRoughness, d.normalScale, d.anisotropy,
-              d.anisotropyRotation, d.diffuseTransmission, d.iridescence, d.iridescenceIor,
-              d.iridescenceThickness.x, d.iridescenceThickness.y, d.subsurface})
+             {d.interior.anisotropy, d.interior.dropletSize, d.specular, d.clearcoat,
+              d.clearcoatRoughness, d.clearcoatNormalScale, d.sheenRoughness, d.normalScale,
+              d.anisotropy, d.anisotropyRotation, d.diffuseTransmission, d.iridescence,
+              d.iridescenceIor, d.iridescenceThickness.x, d.iridescenceThickness.y, d.subsurface})
             add(value);
         _values.push_back(static_cast<uint32_t>(d.interior.priority));
         _values.insert(_values.end(), d.textures.begin(), d.textures.end());

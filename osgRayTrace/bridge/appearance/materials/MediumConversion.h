@@ -17,6 +17,8 @@ inline Medium mediumOf(const osgRayTrace::Medium& source)
     medium.sigmaS = vector(source.getScattering());
     medium.emission = vector(source.getEmission());
     medium.anisotropy = source.getAnisotropy();
+    if (source.getPhase() == osgRayTrace::Medium::DROPLETS)
+        medium.dropletSize = source.getDropletSize();
     medium.priority = source.getPriority();
     return medium;
 }
