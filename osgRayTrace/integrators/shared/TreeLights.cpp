@@ -33,12 +33,11 @@ OSGRAYTRACE_INLINE Quad quadOf(const LightEmitter& e)
 /// Sets the sample of lane i on a parallelogram. Returns all bits if its light can reach the
 /// surface.
 OSGRAYTRACE_INLINE uint32_t emitterLane(const LightEmitter& e, float inversePmf,
-                                        const LightReceivers& receivers, int i,
+                                        const SurfaceLanes& surface, float u, float v, int i,
                                         uint32_t transmissive, LightLanes& samples)
 {
     const Quad q = quadOf(e);
-    const PlainVec3 point = pointOn(q, receivers.u[i], receivers.v[i]);
-    return quadLane(q, inversePmf, receivers.surface, i, transmissive, {point, 0.0f}, samples);
+    return quadLane(q, inversePmf, surface, i, transmissive, {pointOn(q, u, v), 0.0f}, samples);
 }
 
 /// Returns all bits if the emitter is a rectangle that may be wide from lane i.
@@ -74,10 +73,12 @@ OSGRAYTRACE_KERNEL
 LaneMask emitterLanes(const LightEmitter* emitters, const UintLanes& numbers, const FloatLanes& pmf,
                       const LightReceivers& receivers, LaneMask transmissive, LightLanes& samples)
 {
+    const SurfaceLanes& surface = receivers.surface;
+    const FloatLanes &u = receivers.u, &v = receivers.v;
     LaneMask lit = 0;
     OSGRAYTRACE_SIMD_OR(lit)
     for (int i = 0; i < kLanes; ++i)
-        lit |= bitOfLane(emitterLane(emitters[numbers[i]], 1.0f / pmf[i], receivers, i,
+        lit |= bitOfLane(emitterLane(emitters[numbers[i]], 1.0f / pmf[i], surface, u[i], v[i], i,
                                      laneBit(transmissive, i), samples),
                          i);
     return lit;
@@ -167,10 +168,15 @@ void treeLightLanes(const PassContext& context, const TreePoints& points, const 
         samples.pmf[i] *= picks;
     LightLanes& lights = samples.lights;
     const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
-    const LaneMask lit =
-        emitterLanes(gathered.emitters, gathered.at, samples.pmf, receivers, transmissive, lights);
-    const LaneMask near =
-        tree.hasRectangles() ? nearEmitters(gathered.emitters, gathered.at, receivers.surface) : 0;
+    LaneMask parallelograms = 0;
+    for (const int i : lanesIn(receivers.active))
+        parallelograms |= LaneMask((gathered.of(i).flags & (kTriangle | kPoint)) == 0) << i;
+    LaneMask lit = 0, near = 0;
+    if (parallelograms)
+        lit = emitterLanes(gathered.emitters, gathered.at, samples.pmf, receivers, transmissive,
+                           lights);
+    if (parallelograms && tree.hasRectangles())
+        near = nearEmitters(gathered.emitters, gathered.at, receivers.surface);
     lights.lit = lights.tinted = samples.points = 0;
     for (const int i : lanesIn(receivers.active))
     {
