@@ -45,6 +45,11 @@ uint64_t partsDrawnByOsg(const Statistics& statistics)
     return parts;
 }
 
+bool isTraced(const Statistics& statistics)
+{
+    return statistics.triangles > 0 || statistics.conversion.count("converted.volume") > 0;
+}
+
 std::string inWords(const std::map<std::string, uint64_t>& counts)
 {
     std::string text;

@@ -19,6 +19,9 @@ std::map<std::string, uint64_t> drawnParts(const Statistics& statistics);
 /// draws without one.
 uint64_t partsDrawnByOsg(const Statistics& statistics);
 
+/// Returns whether rays meet anything: triangles or volumes.
+bool isTraced(const Statistics& statistics);
+
 /// Returns the counts in words: "primitive sets of lines (12), osgText's texts (3)".
 std::string inWords(const std::map<std::string, uint64_t>& counts);
 

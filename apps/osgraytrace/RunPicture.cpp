@@ -129,7 +129,7 @@ Picture render(const Options& options, TimedScene& shown, Group* group)
     if (options.report) std::cout << conversionReport(picture.statistics) << std::flush;
     const bool drawnByOsg =
         options.context != Context::None && partsDrawnByOsg(picture.statistics) > 0;
-    if (picture.statistics.triangles == 0 && !drawnByOsg)
+    if (!isTraced(picture.statistics) && !drawnByOsg)
     {
         const std::string missing = missingParts(options, picture.statistics);
         throw Failure(kCannotRender, "the scene holds no triangles to render" +

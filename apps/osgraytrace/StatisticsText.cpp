@@ -130,7 +130,7 @@ std::string statisticsLine(const Options& options, const Statistics& statistics,
     const auto proxies = statistics.conversion.find("traced.proxy");
     const bool proxiesAlone =
         proxies != statistics.conversion.end() && proxies->second == statistics.instances;
-    if (statistics.triangles == 0 || proxiesAlone)
+    if (!isTraced(statistics) || proxiesAlone)
         line += ", all of it is drawn by OpenGL";
     else if (!blank.empty())
         line += ", " + blank;

@@ -110,7 +110,8 @@ public:
         if (reached && !ray._reached.isEmpty())
             _reachedExtra = extraOn(ray._reached.end - ray._reached.begin);
         const float extra = wanted != Extra::None ? extraOn(end - begin) : 0.0f;
-        if (ray._around && (reached || ray._around->emits)) _aroundExtra = extra;
+        if (ray._around && (reached ? ray._around->scatters : ray._around->emits))
+            _aroundExtra = extra;
         for (int i = 0; i < ray._count; ++i)
         {
             const auto k = static_cast<std::size_t>(i);

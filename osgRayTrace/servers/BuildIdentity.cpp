@@ -20,8 +20,8 @@ constexpr const char* kCompiler = "GCC " __VERSION__;
 constexpr const char* kCompiler = "another compiler";
 #endif
 
-/// Counts the forms that messages have had.
-constexpr int kMessages = 2;
+/// Counts the forms that messages have had, of scenes and of counts, too.
+constexpr int kMessages = 3;
 
 } // namespace
 

@@ -13,7 +13,8 @@ namespace osgRayTrace::engine
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too. Names are for messages of the process
-// that has the scene graph, and stay there. A test sends an edit of each member.
+// that has the scene graph, and stay there. A test sends an edit of each member. A form of messages
+// that others do not read has another kMessages: BuildIdentity.cpp.
 static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
 static_assert(sizeof(Medium) == 48 && sizeof(Atmosphere) == 64);
 static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616);

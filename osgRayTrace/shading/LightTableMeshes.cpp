@@ -73,8 +73,8 @@ EmissiveMesh LightTable::meshOf(uint32_t light, const LightTable* previous, Loca
 void LightTable::plantMeshTrees(const LightTable* previous, const MaterialTable* materials,
                                 const Workers* workers)
 {
-    MeshLightTrees trees;
-    if (previous) trees.add(previous->_placed);
+    MeshLightTrees resting, trees;
+    if (previous) resting.add(previous->_placed);
     for (const uint32_t i : _areaLights)
     {
         Record& own = _records[_slots[i]];
@@ -84,6 +84,11 @@ void LightTable::plantMeshTrees(const LightTable* previous, const MaterialTable*
         MeshRadiance radiance = meshRadiance(*_scene, light, materials);
         if (radiance.isEven()) radiance.light = Vec3(1.0f);
         std::shared_ptr<const MeshLightTree> tree = trees.find(mesh.areas.get(), radiance);
+        if (!tree)
+        {
+            tree = resting.find(mesh.areas.get(), radiance);
+            if (tree) tree->tree->clearSpare(); // it does not change now
+        }
         if (!tree)
         {
             const PlacedLightTree* before =

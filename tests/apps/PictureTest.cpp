@@ -1,6 +1,7 @@
 // PictureTest.cpp - the pictures and messages that osgraytrace writes.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/VolumeTiles.h"
 #include "tests/apps/ComparedPictures.h"
 #include "tests/apps/Program.h"
 
@@ -410,4 +411,20 @@ TEST_CASE("app: a crop has the pixels of its place in the picture", "[apps]")
     }
     for (const char* wrong : {"60 0 5 5", "-1 0 5 5", "0 0 0 5", "0 44 5 5"})
         CHECK(osgraytrace(folder, common + "no.exr --size 64 48 --crop " + wrong).exitCode == 1);
+}
+
+TEST_CASE("osgraytrace: a volume alone is a picture", "[apps]")
+{
+    const TemporaryFolder folder, models;
+    const osg::ref_ptr<osgVolume::VolumeTile> tile = osgRayTrace::test::tileOf(
+        osgRayTrace::test::ballImage(16), osgRayTrace::test::blueToYellow(0.9f).get(),
+        new osgVolume::RayTracedTechnique, osg::Matrixd::scale(2.0, 2.0, 2.0));
+    REQUIRE(osgDB::writeNodeFile(*tile, models / "tile.osgt"));
+    const Outcome outcome = osgraytrace(folder, models / "tile.osgt" + kQuick + "-o x.exr");
+    CHECK(outcome.exitCode == 0);
+    CHECK_THAT(outcome.output, Contains("estimated error"));
+    ExrImage image;
+    REQUIRE(readExr(folder / "x.exr", image) == "");
+    const std::vector<float>& green = image.find("G")->values;
+    CHECK(*std::max_element(green.begin(), green.end()) > 0.1f);
 }
