@@ -25,6 +25,7 @@ Values otherValues(const Parameter& parameter)
 {
     const osg::ref_ptr<PhysicalMaterial> plain = new PhysicalMaterial;
     Values values = parameter.get(*plain);
+    if (parameter.name == std::string("interiorDropletSize")) return {20.0}; // 0, or from 5 on
     for (std::size_t i = 0; i < values.size(); ++i)
     {
         const std::set<std::string> whole = {"thinWalled", "vertexColors", "interiorPriority"};
