@@ -5,8 +5,12 @@
 
 #include <osgRayTrace/AreaLight>
 #include <osgRayTrace/EnvironmentLight>
+#include <osgRayTrace/PhysicalMaterial>
 #include <osgRayTrace/TracedLight>
 
+#include <osg/LOD>
+
+#include <cstddef>
 #include <functional>
 
 using namespace osgRayTrace;
@@ -31,6 +35,9 @@ public:
         CHECK(_view.passes() == 1); // as before: the noise is the same
         CHECK(differentPixels(_view.lastImage(), before) > kRoundedPixels);
     }
+
+    std::size_t lights() const { return _view.scene()->lights.size(); }
+    uint64_t conversions() const { return _view.statistics().conversions; }
 
 private:
     osg::ref_ptr<osg::Node> _root;
@@ -123,4 +130,34 @@ TEST_CASE("live lights: a sky", "[bridge]")
     watched.edit("turned by a transform",
                  [&] { holder->setMatrix(osg::Matrixd::rotate(1.1, 1.0, 0.0, 0.0)); });
     watched.edit("invisible", [&] { light->setVisible(false); });
+}
+
+TEST_CASE("live lights: emission below a level of detail", "[bridge]")
+{
+    LiveGraph graph;
+    const osg::ref_ptr<PhysicalMaterial> emitter = new PhysicalMaterial;
+    const osg::ref_ptr<osg::MatrixTransform> lamp = graph.newObject(2, 0.0, 0.0);
+    lamp->setMatrix(osg::Matrixd::translate(0.4, 0.3, 1.0));
+    lamp->getStateSet()->setAttribute(emitter);
+    const osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->addChild(lamp, 0.0f, 1e6f);
+    graph.root->addChild(levels);
+    const osg::ref_ptr<osg::MatrixTransform> lit = graph.newObject(1, 0.0, 0.0);
+    lit->setMatrix(osg::Matrixd::translate(1.3, 0.55, 0.6));
+    levels->addChild(lit, 0.0f, 1e6f);
+    const osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
+    second->getLight()->setLightNum(1);
+    second->getLight()->setPosition(osg::Vec4(1.5f, 1.0f, 2.0f, 1.0f));
+    second->getLight()->setDiffuse(osg::Vec4(0.2f, 0.9f, 0.4f, 1.0f));
+    graph.root->addChild(second);
+    Watched watched(graph.root.get());
+    watched.edit("on", [&] { emitter->setEmission(osg::Vec3(4.0f, 2.0f, 1.0f)); });
+    CHECK(watched.lights() == 2);
+    watched.edit("recoloured", [&] { emitter->setEmission(osg::Vec3(1.0f, 2.0f, 6.0f)); });
+    watched.edit("off", [&] { emitter->setEmission(osg::Vec3()); });
+    CHECK(watched.lights() == 1);
+    watched.edit("a light that one of them enables",
+                 [&] { lit->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON); });
+    CHECK(watched.lights() == 2);
+    CHECK(watched.conversions() == 1);
 }

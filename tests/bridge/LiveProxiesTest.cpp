@@ -6,6 +6,7 @@
 #include <osgRayTrace/RayTracedScene>
 
 #include <osg/Depth>
+#include <osg/LOD>
 #include <osg/Program>
 
 using namespace osgRayTrace;
@@ -22,6 +23,25 @@ void addProgram(osg::Node& node)
     program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() {}"));
     node.getOrCreateStateSet()->setAttributeAndModes(program);
 }
+
+/// Draws a triangle that it tells to functors.
+struct Sail : osg::Drawable
+{
+    META_Node(test, Sail)
+    Sail() { setUseDisplayList(false); }
+    Sail(const Sail& other, const osg::CopyOp& copy) : osg::Drawable(other, copy) {}
+
+    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
+    void accept(osg::PrimitiveFunctor& functor) const override
+    {
+        functor.setVertexArray(3, corners);
+        functor.drawArrays(GL_TRIANGLES, 0, 3);
+    }
+    osg::BoundingBox computeBoundingBox() const override { return {0, 0, 0, 2, 2, 2}; }
+    void drawImplementation(osg::RenderInfo&) const override {}
+
+    osg::Vec3 corners[3] = {{0.2f, 0.2f, 1.0f}, {1.0f, 0.2f, 1.0f}, {0.2f, 1.0f, 1.0f}};
+};
 
 } // namespace
 
@@ -66,4 +86,26 @@ TEST_CASE("proxies: follow edits of a live scene", "[bridge]")
     CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
     graph.root->removeChild(graph.group);
     CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+}
+
+TEST_CASE("proxies: a drawable that tells other triangles casts another shadow", "[bridge]")
+{
+    LiveGraph graph;
+    const osg::ref_ptr<osg::Group> holder = GENERATE(false, true) ? new osg::LOD : new osg::Group;
+    const osg::ref_ptr<Sail> sail = new Sail;
+    sail->setDataVariance(osg::Object::DYNAMIC); // its triangles are looked at
+    holder->addChild(sail);
+    if (auto* levels = dynamic_cast<osg::LOD*>(holder.get())) levels->setRange(0, 0.0f, 1e6f);
+    graph.root->addChild(holder);
+    LiveView view(graph.root);
+    REQUIRE(view.statistics().conversion.at(kProxy) == 1);
+    for (const float reach : {1.5f, 0.7f, 1.9f})
+    {
+        const std::vector<float> before = view.image();
+        sail->corners[1].x() = sail->corners[2].y() = reach;
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+        CHECK(differentPixels(view.lastImage(), before) > kRoundedPixels);
+        CAPTURE(view.statistics().lastConversionReason);
+        CHECK(view.statistics().conversions == 1);
+    }
 }

@@ -271,7 +271,7 @@ PatchResult SceneConverter::patch(const GraphChanges& changes, const ViewingCond
     if (losesStaticBvh()) return refused(ConversionCause::NoStaticBvh);
     ConversionResult& result = state.lastResult;
     result.scene = state.last;
-    if (patcher.spliced()) result.pickIndex.reset();
+    if (patcher.spliced() || !changes.subtrees.empty()) result.pickIndex.reset();
     addToCount(result.counts, "converted.geometry", patcher.geometriesMore());
     addToCount(result.counts, "converted.instance", patcher.instancesMore());
     addToCount(result.counts, "traced.proxy", patcher.proxiesMore());

@@ -71,6 +71,8 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
 {
     _caches.geometries.begin(_now);
     _caches.textures.resume(_now);
+    _caches.vertices.begin(); // each patch asks drawables again
+    _caches.triangles.begin();
     for (const GraphSplice& one : changes.splices)
         if (!splice(one)) return nullptr;
     for (const CullSplice& one : changes.culled)
@@ -89,8 +91,8 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     if (changes.lights && !relightLamps()) return nullptr;
     takeMaterials();
     if (changes.view) setBackground();
-    const bool relights =
-        changes.lights || changes.view || _spliced || !changes.stateChanges.empty();
+    const bool relights = changes.lights || changes.view || _spliced ||
+                          !changes.stateChanges.empty() || !changes.subtrees.empty();
     if (relights && !relight()) return nullptr;
     dropRemoved();
     if (_changed) _scene->changed = _now;

@@ -172,7 +172,7 @@ ConversionCause ScenePatcher::removeUses(const osg::Geometry& geometry, uint32_t
     }
     if (!all)
     {
-        // The mesh of what is left must not be one that has gone.
+        // All uses must share one mesh, which stays for those that are left.
         for (const TracedUse& use : traced.uses)
             if (use.instance == kInvalid || meshes.count(_scene->instances[use.instance].mesh) == 0)
                 return ConversionCause::NotAnInstance;

@@ -17,8 +17,9 @@ namespace osgRayTrace::engine
 {
 
 /// Holds geometries of the triangles that drawables tell by osg::PrimitiveFunctor, and copies of
-/// the geometries that nodes draw in cull. Each conversion asks the drawables again; a
-/// geometry stays the same object, with the same arrays while its values do.
+/// the geometries that nodes draw in cull. Each conversion and each patch begins a round, in which
+/// the drawables are asked again; conversions alone end one. A geometry stays the same object, with
+/// the same arrays while its values do.
 class DrawableTriangles
 {
 public:
