@@ -56,6 +56,9 @@ public:
     /// that light can enter.
     MediumId interiorOf(uint32_t material) const { return _interiors[material]; }
 
+    /// Returns whether some material has such bodies.
+    bool hasInteriors() const { return _records.size() > 1; }
+
     /// Returns whether the material is nothing but the boundary of its medium.
     bool isInterface(uint32_t material) const { return _interfaces[material]; }
 

@@ -14,6 +14,7 @@
 // along the end of its walk: what it does with that direction is divided out before.
 #include "osgRayTrace/photons/ChunkTracer.h"
 
+#include "osgRayTrace/accel/Bodies.h"
 #include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SubsurfaceWalk.h"
@@ -143,6 +144,10 @@ void ChunkTracer::leaveBodies(PhotonPathBlock& block, const RayHitBlock& leaving
         if (_textured[i].needsAxes()) alignLayers(traced, _rays, surface, i, normal, _textured[i]);
         _textured[i].diffuse = Vec3(_textured[i].baseAverage);
         _bsdfs[i] = &_textured[i];
+        if (!traced.media().hasInteriors()) continue;
+        const Vec3 before = laneOf(trianglePoints(surface), i) +
+                            laneOf(surface.geometricNormal, i) * surface.offset[i];
+        block.bodies[i] = bodiesAround(traced, before).word();
     }
     _oneSided &= ~lanes;
     _seen &= ~lanes;

@@ -13,6 +13,7 @@
 // lobes go on with 1 / (1 - p). At y paths are what they are on a diffuse surface: lights are
 // sampled, photons are looked up, pixels share what is found. A walk that leaves its mesh through a
 // hole comes back as plain diffuse reflection.
+#include "osgRayTrace/accel/Bodies.h"
 #include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/accel/SubsurfaceWalk.h"
@@ -103,6 +104,13 @@ SubsurfaceWalk walk(const Tile& tile, const PathBlock& block, const Bounce& boun
     return walkBelow(*tile.context.traced, entry);
 }
 
+/// Returns a point just before a surface, on the side of its normal.
+Vec3 pointBefore(const SurfaceLanes& surface, int i)
+{
+    return laneOf(trianglePoints(surface), i) +
+           laneOf(surface.geometricNormal, i) * surface.offset[i];
+}
+
 /// Takes lanes of the bounce to the surfaces of a block of rays that leave them.
 void leaveThere(Tile& tile, RayHitBlock& leaving, LaneMask lanes, PathBlock& block, Bounce& bounce)
 {
@@ -123,6 +131,8 @@ void leaveThere(Tile& tile, RayHitBlock& leaving, LaneMask lanes, PathBlock& blo
             surface.material[i], materialPoint(tile.context, block.rays, bounce.surface, i)));
         if (bsdf.needsAxes())
             alignLayers(traced, block.rays, bounce.surface, i, laneOf(normal, i), bsdf);
+        if (traced.media().hasInteriors())
+            block.bodies[i] = bodiesAround(traced, pointBefore(bounce.surface, i));
         setLeaving(bounce, i, bsdf, Vec3(1.0f));
     }
 }
