@@ -141,7 +141,9 @@ private:
     /// Plays roulette.
     bool survives(float u)
     {
-        const float survival = std::min(1.0f, largestOf(_walk.throughput) / _entry.least);
+        const float most = largestOf(_walk.throughput);
+        if (!(most > 0.0f)) return false; // least is 0, too, for photons without power
+        const float survival = std::min(1.0f, most / _entry.least);
         if (!(u < survival)) return false;
         _walk.throughput /= survival;
         return true;

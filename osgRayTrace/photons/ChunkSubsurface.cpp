@@ -77,6 +77,7 @@ bool ChunkTracer::walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& s
         setLane(block.power, i, power / (1.0f - p));
         _textured[i] = split.local;
         _bsdfs[i] = &_textured[i];
+        _aligned |= 1u << i;
         return false;
     }
     const Vec3 entering = power * split.entering *
@@ -102,6 +103,7 @@ bool ChunkTracer::walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& s
         _textured[i] = split.leaving;
         _textured[i].diffuse = split.color * whole.baseAverage;
         _bsdfs[i] = &_textured[i];
+        _aligned |= 1u << i;
         setLane(block.power, i, entering / shadingFactor(direction, normal, geometric));
         return false;
     default:
@@ -149,6 +151,7 @@ void ChunkTracer::leaveBodies(PhotonPathBlock& block, const RayHitBlock& leaving
                             laneOf(surface.geometricNormal, i) * surface.offset[i];
         block.bodies[i] = bodiesAround(traced, before).word();
     }
+    _aligned |= lanes;
     _oneSided &= ~lanes;
     _seen &= ~lanes;
 }

@@ -126,7 +126,7 @@ void ChunkTracer::scatterOne(const PhotonPathBlock& block, const SurfaceLanes& s
     const Vec3 normal = laneOf(_normal, i), direction = laneOf(block.direction, i);
     const Bsdf* bsdf = _bsdfs[i];
     Bsdf aligned;
-    if (bsdf->needsAxes())
+    if (bsdf->needsAxes() && !((_aligned >> i) & 1u))
     {
         aligned = *bsdf;
         alignLayers(_inputs.traced, _rays, surface, i, normal, aligned);
@@ -188,7 +188,7 @@ LaneMask ChunkTracer::classify(const PhotonPathBlock& block, const SurfaceLanes&
 {
     const MaterialTable& materials = _inputs.traced.materials();
     LaneMask stores = 0;
-    _diffuse = _smooth = _general = _glossy = 0;
+    _diffuse = _smooth = _general = _glossy = _aligned = 0;
     for (const int i : lanesIn(surface.hits))
     {
         const LaneMask lane = 1u << i;

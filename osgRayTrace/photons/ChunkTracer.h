@@ -166,6 +166,7 @@ private:
     LaneMask _oneSided = 0; ///< lanes on faces that all rays pass from one side
     LaneMask _seen = 0;     ///< lanes of _oneSided on the side of the face that is seen
     LaneMask _collided = 0; ///< lanes that media have scattered on their way to the surface
+    LaneMask _aligned = 0;  ///< lanes of _general for whose _bsdfs alignLayers() has been called
     const Bsdf* _bsdfs[kLanes] = {};
     Bsdf _textured[kLanes]; ///< memory for those of _bsdfs that vary over their surface
     Scattered _scattered;

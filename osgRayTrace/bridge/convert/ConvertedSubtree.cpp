@@ -5,26 +5,11 @@
 #include "osgRayTrace/bridge/common/Hasher.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace osgRayTrace::engine
 {
-
-namespace
-{
-
-/// Returns whether two parts are the same node, of which OSG draws the rest of the same primitives.
-bool hasSameRest(const RasterizedPart& a, const RasterizedPart& b)
-{
-    const osg::Geometry* then = a.inPlace ? a.inPlace->asGeometry() : nullptr;
-    const osg::Geometry* now = b.inPlace ? b.inPlace->asGeometry() : nullptr;
-    return then && now && a.kind == b.kind && a.path == b.path &&
-           then->getPrimitiveSetList() == now->getPrimitiveSetList() &&
-           then->getVertexArray() == now->getVertexArray() &&
-           then->getStateSet() == now->getStateSet();
-}
-
-} // namespace
 
 uint64_t placeHash(const osg::Matrixd& engineFromLocal)
 {
@@ -82,15 +67,8 @@ void ConvertedSubtrees::setParts(uint32_t subtree, RasterizedParts fresh)
     const auto count = std::count(partSubtrees.begin(), partSubtrees.end(), subtree);
     const auto more = static_cast<std::ptrdiff_t>(fresh.size()) - count;
     RasterizedParts now(parts->begin(), parts->begin() + begin);
-    for (RasterizedPart& part : fresh)
-    {
-        const auto end = parts->begin() + begin + count;
-        const auto same =
-            std::find_if(parts->begin() + begin, end,
-                         [&part](const auto& then) { return hasSameRest(then, part); });
-        if (same != end) part.inPlace = same->inPlace; // OpenGL has its lists
-        now.push_back(std::move(part));
-    }
+    now.insert(now.end(), std::make_move_iterator(fresh.begin()),
+               std::make_move_iterator(fresh.end()));
     now.insert(now.end(), parts->begin() + begin + count, parts->end());
     parts = std::make_shared<const RasterizedParts>(std::move(now));
     const auto at =

@@ -21,13 +21,17 @@ bool ScenePatcher::splice(const CullSplice& splice)
     for (const ChangedUse& gone : splice.removed)
         if (!removeProxy(gone)) return refuse(ConversionCause::CullTraversal, splice.path);
     if (!splice.added.empty() && !addProxies(splice)) return false;
-    _convertedGraph.index.addUntraced({}, splice.left);
+    // A node that is shown again has told them before.
+    std::vector<const osg::Geometry*> left;
+    for (const osg::Geometry* geometry : splice.left)
+        if (_convertedGraph.index.geometries.count(geometry) == 0) left.push_back(geometry);
+    _convertedGraph.index.addUntraced({}, left);
     const uint32_t in = _convertedGraph.subtrees.find(splice.path);
     if (in == kNoSubtree) return true;
     ConvertedSubtree& subtree = _convertedGraph.subtrees.all[in];
     for (const auto& [reason, more] : splice.countsMore)
         subtree.counts[reason] += static_cast<uint64_t>(more);
-    subtree.left.insert(subtree.left.end(), splice.left.begin(), splice.left.end());
+    subtree.left.insert(subtree.left.end(), left.begin(), left.end());
     return true;
 }
 
