@@ -40,6 +40,13 @@ Difference differenceOf(const std::string& a, const std::string& b)
     return lines;
 }
 
+/// Returns whether the least pass of both is one of the first.
+bool isFirst(const engine::PassSet& first, const engine::PassSet& second)
+{
+    if (first.empty() || second.empty()) return !first.empty();
+    return first.ranges().front().first < second.ranges().front().first;
+}
+
 void addRays(const RayTotals& from, RayTotals& into)
 {
     for (std::size_t i = 0; i < into.size(); ++i)
@@ -142,6 +149,7 @@ void Coordinator::takeReady(int rank, const GroupMessage& message)
     if (const auto common = passes->firstCommon(_round->passes))
         return fail(kCannotRender,
                     nameOf(rank) + " has pass " + std::to_string(*common) + " of another rank");
+    if (isFirst(*passes, _round->passes)) _round->first = rank;
     _round->passes.add(*passes);
     _round->hasHigh = _round->hasHigh || message.flag != 0;
     if (++_round->ready < static_cast<int>(_ranks.size())) return;
@@ -152,6 +160,7 @@ void Coordinator::takeReady(int rank, const GroupMessage& message)
                                        engine::passText(_round->passes));
     GroupMessage sum(Kind::Sum);
     sum.flag = _round->hasHigh;
+    sum.first = _round->first;
     sendAll(sum);
 }
 
@@ -251,8 +260,8 @@ void Coordinator::begin(double now)
     if (isOnGrid) judge(true, false, false);
 }
 
-/// Gives passes to ranks that want some. Rank 0 is the first, so that it has the depths of the
-/// picture. Returns whether any were given.
+/// Gives passes to ranks that want some. Rank 0 is the first, so that it mostly has the depths of
+/// the picture. Returns whether any were given.
 bool Coordinator::giveLeases(double now)
 {
     bool given = false;

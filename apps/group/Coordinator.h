@@ -99,6 +99,7 @@ private:
         bool keeps = false;       ///< whether its sums are kept
         engine::PassSet expected; ///< the passes that ranks have taken before it
         engine::PassSet passes;   ///< the passes that ranks have told of
+        int first = 0;            ///< rank that has the least of them, and so the depths
         int ready = 0;
         bool hasHigh = false;
     };

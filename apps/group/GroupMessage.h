@@ -46,7 +46,7 @@ struct GroupMessage
         Bytes, ///< the scene comes now
         Take,  ///< make passes [first, end)
         Round, ///< get ready for round first, with all passes taken; flag: leave those not begun
-        Sum,   ///< add up; flag: the high parts as well
+        Sum,   ///< add up; flag: the high parts as well; first: the rank of the depths
         End,   ///< make no more passes
         Abort, ///< leave at once: a rank is dead
         Bye,   ///< leave; the last kind

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 
 namespace osgRayTrace::app
@@ -37,6 +38,26 @@ void makeRoom(engine::PassSums& sums, int ranks)
     }
 }
 
+/// Writes the bits of depths as integers, whose sum with zeros is exact.
+void depthsToBits(const std::vector<float>& depths, std::vector<std::int64_t>& bits)
+{
+    for (std::size_t i = 0; i < depths.size(); ++i)
+    {
+        std::uint32_t word;
+        std::memcpy(&word, &depths[i], sizeof(word));
+        bits[i] = word;
+    }
+}
+
+void bitsToDepths(const std::vector<std::int64_t>& bits, std::vector<float>& depths)
+{
+    for (std::size_t i = 0; i < depths.size(); ++i)
+    {
+        const auto word = static_cast<std::uint32_t>(bits[i]);
+        std::memcpy(&depths[i], &word, sizeof(word));
+    }
+}
+
 engine::PassSums noPasses(int width, int height)
 {
     engine::PassSums sums;
@@ -62,20 +83,7 @@ PassWorker::~PassWorker()
 
 void PassWorker::take(const GroupMessage& message)
 {
-    if (message.kind == Kind::Sum)
-    {
-        {
-            const std::lock_guard<std::mutex> lock(_shared.mutex);
-            _sum = std::move(_shared.sums);
-            _shared.sums.reset();
-        }
-        OSGRAYTRACE_ASSERT(_sum);
-        _sumsHigh = message.flag != 0;
-        if (_sumsHigh && _sum->high.empty()) _sum->high.assign(_sum->low.size(), 0);
-        _group.beginSum(_sum->low.data(), _sum->low.size());
-        _summing = true;
-        return;
-    }
+    if (message.kind == Kind::Sum) return beginSum(message);
     const bool isEnd = message.kind == Kind::End;
     {
         const std::lock_guard<std::mutex> lock(_shared.mutex);
@@ -88,6 +96,42 @@ void PassWorker::take(const GroupMessage& message)
     if (isEnd) _work.cancel();
 }
 
+/// Adds the sums of all ranks. The depths are those of one rank: all others add zeros, and nothing
+/// is added if it is rank 0, which has them.
+void PassWorker::beginSum(const GroupMessage& message)
+{
+    {
+        const std::lock_guard<std::mutex> lock(_shared.mutex);
+        _sum = std::move(_shared.sums);
+        _shared.sums.reset();
+    }
+    OSGRAYTRACE_ASSERT(_sum);
+    _waiting = {&_sum->low};
+    if (message.flag)
+    {
+        _sum->high.resize(_sum->low.size(), 0);
+        _waiting.push_back(&_sum->high);
+    }
+    _depths.clear();
+    if (message.first != 0)
+    {
+        _depths.assign(_sum->depth.size(), 0);
+        if (message.first == _group.rank()) depthsToBits(_sum->depth, _depths);
+        _waiting.push_back(&_depths);
+    }
+    addNext();
+}
+
+/// Begins to add the next array, if there is one.
+void PassWorker::addNext()
+{
+    _summing = !_waiting.empty();
+    if (!_summing) return;
+    std::vector<std::int64_t>& values = *_waiting.front();
+    _waiting.pop_front();
+    _group.beginSum(values.data(), values.size());
+}
+
 bool PassWorker::poll()
 {
     std::deque<GroupMessage> said;
@@ -98,9 +142,8 @@ bool PassWorker::poll()
     for (const GroupMessage& message : said)
         _send(message);
     if (!_summing || !_group.sumIsDone()) return !said.empty() || _summing;
-    _summing = _sumsHigh;
-    if (_sumsHigh) _group.beginSum(_sum->high.data(), _sum->high.size());
-    _sumsHigh = false;
+    addNext();
+    if (!_summing && !_depths.empty()) bitsToDepths(_depths, _sum->depth);
     return true;
 }
 

@@ -71,6 +71,8 @@ public:
     void waitForNews(std::chrono::microseconds most);
 
 private:
+    void beginSum(const GroupMessage& message);
+    void addNext();
     void run();
     int nextPass();
     bool goesOn();
@@ -84,8 +86,9 @@ private:
 
     // The communicating thread's.
     bool _summing = false;
-    bool _sumsHigh = false;
     std::optional<engine::PassSums> _sum;
+    std::vector<std::int64_t> _depths;               ///< if they are another rank's than 0
+    std::deque<std::vector<std::int64_t>*> _waiting; ///< arrays to be added, of all ranks each
 
     // The working thread's.
     bool _greeted = false;

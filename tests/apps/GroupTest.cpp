@@ -172,6 +172,27 @@ TEST_CASE("group: a signal to any rank ends the render, and no pass is lost", "[
     }
 }
 
+TEST_CASE("group: the depths are those of the least pass, whichever rank has it", "[apps]")
+{
+    // Rank 0 still learns for the first pass when the signal comes, and makes none.
+    ThreadCluster cluster;
+    cluster.plan = planOf(1 << 24);
+    cluster.plan.firstPass = 1 << 20;
+    cluster.clockRate = 0.05; // a busy machine is not a dead one
+    cluster.ranks.resize(3);
+    for (Rank& rank : cluster.ranks)
+        rank.microseconds = 200;
+    cluster.ranks[0].learning = 1 << 20;
+    cluster.interruptedRank = 1;
+    cluster.interruptedAtPass = (1 << 20) + 4;
+    const GroupResult result = cluster.run();
+    CHECK(result.exitCode == 0);
+    CHECK(cluster.made[0] == 0);
+    REQUIRE(result.sums);
+    CHECK(result.sums->depth[0] >= float(1 << 20));
+    CHECK(areEqual(*result.sums, sumsOf(result.sums->passes)));
+}
+
 TEST_CASE("group: a rank with another picture is named, and so is what differs", "[apps]")
 {
     ThreadCluster cluster;
