@@ -293,6 +293,19 @@ void SessionState::addTileCounts()
     }
 }
 
+namespace
+{
+
+/// Returns whether the error of the image is to be estimated anew. An estimate reads all of the
+/// film, which is a sixth of a short pass: if it ends nothing, the one of 8 / 9 of the passes will
+/// do. That depends on passes alone, so that a caller who ends by it ends at the same pass again.
+bool estimateIsDue(const StopRule& rule, int passes, int estimated)
+{
+    return rule.relativeError > 0.0 || passes - estimated >= std::max(1, estimated / 8);
+}
+
+} // namespace
+
 RenderProgress SessionState::run(const StopRule& rule,
                                  const std::function<bool(const RenderProgress&)>& keepGoing,
                                  const DisplayTarget* display)
@@ -310,7 +323,8 @@ RenderProgress SessionState::run(const StopRule& rule,
     progress.imageShare = imageShare();
     if (filmFirstPass > 0 || progress.passes > 0 || rule.nextPass || rule.pose)
         photons.choose(filmScene, contextOfPass(0), *workers);
-    int added = 0; // passes that the film has got from this call
+    int added = 0;     // passes that the film has got from this call
+    int estimated = 0; // passes of the film that progress.error is of
     for (int newPasses = 0; newPasses < rule.newPasses; ++newPasses)
     {
         if (!wantedPass || !rule.nextPass) wantedPass = askForPass(rule);
@@ -343,10 +357,15 @@ RenderProgress SessionState::run(const StopRule& rule,
         if (whole && !next.isLearning) ++added;
         if (cancelled) progress.status = {StatusCode::Cancelled, "the render was cancelled"};
         if (cancelled || !whole) break;
-        if (wantsError) progress.error = estimateError();
+        if (wantsError && estimateIsDue(rule, progress.passes, estimated))
+        {
+            progress.error = estimateError();
+            estimated = progress.passes;
+        }
         if (rule.relativeError > 0.0 && progress.error.relative <= rule.relativeError) break;
         if (keepGoing && !keepGoing(progress)) break;
     }
+    if (wantsError && added > 0 && estimated != progress.passes) progress.error = estimateError();
     if (display && progress.newTiles > 0 && !shown) resolveRest(*display);
     // The depths of the image are those of its least pass, and so is all that is seen in it.
     if (!filmPasses.empty()) takePose(rule, filmPasses.ranges().front().first);

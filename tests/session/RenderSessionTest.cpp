@@ -3,6 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <thread>
@@ -112,6 +113,33 @@ TEST_CASE("session: stops at the estimated error that was asked for", "[session]
           std::numeric_limits<double>::infinity()); // one pass does not tell its error
     for (const double error : errors)
         CHECK(error > 0.12); // rendering stopped once the error was reached
+}
+
+TEST_CASE("session: errors that end nothing are those of 8 / 9 of the passes", "[session]")
+{
+    BoxSession box;
+    StopRule rule;
+    rule.passes = 41;
+    std::vector<double> shown, real;
+    const RenderProgress progress =
+        box.session.render(rule,
+                           [&](const RenderProgress& p)
+                           {
+                               shown.push_back(p.error.relative);
+                               real.push_back(box.session.estimateError().relative);
+                               return true;
+                           });
+    REQUIRE(shown.size() == 41);
+    int different = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+    {
+        const auto first = real.begin() + static_cast<std::ptrdiff_t>(i * 8 / 9);
+        const auto end = real.begin() + static_cast<std::ptrdiff_t>(i + 1);
+        CHECK(std::find(first, end, shown[i]) != end);
+        different += i > 0 && shown[i] != shown[i - 1];
+    }
+    CHECK(different < 30);
+    CHECK(progress.error.relative == real.back());
 }
 
 TEST_CASE("session: stops when its time is over, or when told to", "[session]")
