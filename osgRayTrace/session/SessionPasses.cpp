@@ -297,11 +297,11 @@ namespace
 {
 
 /// Returns whether the error of the image is to be estimated anew. An estimate reads all of the
-/// film, which is a sixth of a short pass: if it ends nothing, the one of 8 / 9 of the passes will
+/// film, which is a sixth of a short pass: if it ends nothing, the one of 4 / 5 of the passes will
 /// do. That depends on passes alone, so that a caller who ends by it ends at the same pass again.
 bool estimateIsDue(const StopRule& rule, int passes, int estimated)
 {
-    return rule.relativeError > 0.0 || passes - estimated >= std::max(1, estimated / 8);
+    return rule.relativeError > 0.0 || passes - estimated >= std::max(1, estimated / 4);
 }
 
 } // namespace

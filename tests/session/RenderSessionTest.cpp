@@ -115,7 +115,7 @@ TEST_CASE("session: stops at the estimated error that was asked for", "[session]
         CHECK(error > 0.12); // rendering stopped once the error was reached
 }
 
-TEST_CASE("session: errors that end nothing are those of 8 / 9 of the passes", "[session]")
+TEST_CASE("session: errors that end nothing are those of 4 / 5 of the passes", "[session]")
 {
     BoxSession box;
     StopRule rule;
@@ -133,12 +133,12 @@ TEST_CASE("session: errors that end nothing are those of 8 / 9 of the passes", "
     int different = 0;
     for (std::size_t i = 0; i < shown.size(); ++i)
     {
-        const auto first = real.begin() + static_cast<std::ptrdiff_t>(i * 8 / 9);
+        const auto first = real.begin() + static_cast<std::ptrdiff_t>(i * 4 / 5);
         const auto end = real.begin() + static_cast<std::ptrdiff_t>(i + 1);
         CHECK(std::find(first, end, shown[i]) != end);
         different += i > 0 && shown[i] != shown[i - 1];
     }
-    CHECK(different < 30);
+    CHECK(different < 20);
     CHECK(progress.error.relative == real.back());
 }
 
