@@ -159,7 +159,8 @@ Run addPhotons(CLI::App& mode)
     addNumber(mode, "--runs", options->runs, 1, 1000,
               "timings of each rate, of which the median counts");
     addNumber(mode, "--photons", options->photons, 1000, 10000000, "photons of look-ups");
-    mode.add_option("--only", options->only, "parts whose name holds this: lookup, tracing, error");
+    mode.add_option("--only", options->only,
+                    "parts whose name holds this: lookup, beams, tracing, error");
     return [=] { return runRows([&](Rows& rows) { measurePhotons(*options, rows); }, *json); };
 }
 

@@ -137,6 +137,7 @@ void LightTable::plantTree(const LightTable* previous, const MaterialTable* mate
 {
     plantMeshTrees(previous, materials, workers);
     SceneEmitters emitters = sceneEmitters(*_scene, *this, materials);
+    if (!canBeNumbered(emitters.size)) return dropMeshTrees();
     if (emitters.size <= kMostWithoutTree && _placed.empty()) return;
     uint32_t index = 0;
     for (const uint32_t i : _areaLights)
@@ -157,6 +158,24 @@ void LightTable::plantTree(const LightTable* previous, const MaterialTable* mate
     }
     const EmitterSource source = emitterSource(emitters, *_scene, *this);
     _tree = std::make_shared<const SceneLightTree>(emitters, source, _placed, before, workers);
+}
+
+/// Returns whether the numbers of all emitters have 32 bits: instances of a mesh share memory, but
+/// no numbers. unplaced: the emitters that are not within a placed mesh.
+bool LightTable::canBeNumbered(std::size_t unplaced) const
+{
+    uint64_t emitters = unplaced;
+    for (const PlacedLightTree& placed : _placed)
+        emitters += placed.own->tree->size();
+    return emitters < kInvalid;
+}
+
+/// Leaves the lights without any tree: they are chosen by power, and their triangles by area.
+void LightTable::dropMeshTrees()
+{
+    for (Record& record : _records)
+        record.placed = kInvalid;
+    _placed.clear();
 }
 
 std::vector<uint32_t> LightTable::lightsInSpace() const

@@ -189,6 +189,8 @@ private:
                         const Workers* workers);
     void plantTree(const LightTable* previous, const MaterialTable* materials,
                    const Workers* workers);
+    bool canBeNumbered(std::size_t unplaced) const;
+    void dropMeshTrees();
 
     const Scene* _scene;
     std::vector<uint32_t> _areaLights;

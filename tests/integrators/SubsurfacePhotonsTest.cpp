@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 //
 // All tests have fixed seeds. Means have to agree within four standard errors, as Estimate says.
+#include "tests/integrators/MaterialDetails.h"
 #include "tests/integrators/SubsurfaceScenes.h"
 
 using namespace osgRayTrace::engine;
@@ -61,6 +62,37 @@ TEST_CASE("subsurface: photons bring the light that comes through a wall of wax"
         CAPTURE(int(kind), seen.mean(), seen.standardError(), expected.mean(),
                 expected.standardError());
         CHECK(expected.standardError() < 0.01 * expected.mean());
+        CHECK(seen.agrees(expected.mean(), 4.0 * expected.standardError()));
+    }
+}
+
+TEST_CASE("subsurface: photons are mirrored by brushed wax as paths are",
+          "[statistics][subsurface]")
+{
+    // Brushes that are slanted to the sheet's edges throw the lamp's light to one side of the wall.
+    Material brushed = wax(Vec3(0.9f), Vec3(0.05f), 1.5f);
+    brushed.metallic = 0.9f;
+    brushed.roughness = 0.3f;
+    brushed =
+        changed(brushed, [](Material&, MaterialDetail& detail) { detail.anisotropy = 0.95f; });
+    SceneBuilder builder;
+    builder.add(mappedQuad({0.7f, 0.7f}, {-0.7f, 0.7f}), brushed);
+    builder.add(quadMesh({-6.0f, 2.0f, 0.0f}, {12.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 6.0f}),
+                lambert(Vec3(0.8f)));
+    builder.addQuadLight({-0.2f, -2.2f, 1.5f}, {0.0f, 0.3f, 0.3f}, {0.4f, 0.0f, 0.0f}, Vec3(30.0f));
+    const auto traced = builder.build();
+    RenderOptions options = optionsOf(IntegratorKind::Path, 3);
+    options.photons = 20000;
+    for (const float x : {-1.5f, 1.5f})
+    {
+        const View view = patchView({x, 2.0f, 1.0f}, {0, -1, 0}, 0.6, 8);
+        options.integrator = IntegratorKind::Path;
+        const Estimate expected = measure(traced, view, options, 64);
+        options.integrator = IntegratorKind::Sppm;
+        const Estimate seen = measure(traced, view, options, 16);
+        CAPTURE(x, seen.mean(), seen.standardError(), expected.mean(), expected.standardError());
+        CHECK(expected.standardError() < 0.02 * expected.mean());
+        CHECK(seen.standardError() < 0.02 * expected.mean());
         CHECK(seen.agrees(expected.mean(), 4.0 * expected.standardError()));
     }
 }

@@ -213,6 +213,28 @@ TEST_CASE("subsurface: light leaves where that of a half-space does", "[statisti
     }
 }
 
+TEST_CASE("subsurface: walks without light end at once", "[subsurface]")
+{
+    SceneBuilder builder;
+    builder.add(boxMesh(Vec3(-1.0f), Vec3(1.0f)), wax(Vec3(1.0f), Vec3(0.1f)));
+    const auto traced = builder.build();
+    SubsurfaceEntry entry;
+    entry.position = Vec3(0.1f, 0.2f, 1.0f);
+    entry.normal = Vec3(0.0f, 0.0f, 1.0f);
+    entry.offset = 1e-4f;
+    entry.sigma = Vec3(10.0f);
+    entry.color = Vec3(1.0f);
+    entry.throughput = Vec3(0.0f);
+    entry.least = 0.0f;
+    entry.direction = Vec2(0.5f);
+    for (entry.key = 0; entry.key < 16; ++entry.key)
+    {
+        const SubsurfaceWalk walk = walkBelow(*traced, entry);
+        CHECK(walk.end == SubsurfaceWalk::End::Absorbed);
+        CHECK(walk.collisions == 0);
+    }
+}
+
 TEST_CASE("subsurface: a short way is plain diffuse reflection", "[statistics][subsurface]")
 {
     const Vec3 color(0.6f);

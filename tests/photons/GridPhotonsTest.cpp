@@ -55,15 +55,6 @@ SceneBuilder ballUnderSmoke()
     return builder;
 }
 
-void checkAgreement(const Estimate& a, const Estimate& b, double error, double threshold)
-{
-    const double p = welchTest(a, kRuns, b, kRuns);
-    CAPTURE(a.mean(), a.standardError(), b.mean(), b.standardError(), p, threshold);
-    CHECK(a.standardError() < error * a.mean());
-    CHECK(b.standardError() < error * b.mean());
-    CHECK(p > threshold);
-}
-
 } // namespace
 
 // All comparisons together raise a false alarm with a probability of 1 %.

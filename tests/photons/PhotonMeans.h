@@ -5,6 +5,7 @@
 
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
+#include "tests/PValues.h"
 #include "tests/Statistics.h"
 
 #include "osgRayTrace/photons/PhotonEmitter.h"
@@ -29,6 +30,17 @@ inline Estimate meanOf(const std::shared_ptr<const TracedScene>& traced, const V
         estimate.add(double(luminance(picture.mean())));
     }
     return estimate;
+}
+
+/// Checks that the means of two pictures agree: error bounds the standard error of each, relative
+/// to the first mean; threshold is the probability of a false alarm.
+inline void checkAgreement(const Estimate& a, const Estimate& b, double error, double threshold)
+{
+    const double p = welchTest(a, kRuns, b, kRuns);
+    CAPTURE(a.mean(), a.standardError(), b.mean(), b.standardError(), p, threshold);
+    CHECK(a.standardError() < error * a.mean());
+    CHECK(b.standardError() < error * a.mean());
+    CHECK(p > threshold);
 }
 
 inline EmissionPoint randomPoint(Uniform& uniform)

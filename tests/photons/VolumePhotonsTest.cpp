@@ -63,12 +63,8 @@ TEST_CASE("volume photons: agree with paths", "[photons][statistics][media]")
             options.integrator = kind;
             options.photons = 2000;
             options.photonRadius = 4.0f;
-            const Estimate photons = meanOf(traced, view, options, 8);
-            const double p = welchTest(path, kRuns, photons, kRuns);
-            CAPTURE(scene.name, int(kind), path.mean(), path.standardError(), photons.mean(),
-                    photons.standardError(), p, threshold);
-            CHECK(photons.standardError() < 0.06 * path.mean());
-            CHECK(p > threshold);
+            CAPTURE(scene.name, int(kind));
+            checkAgreement(path, meanOf(traced, view, options, 8), 0.06, threshold);
         }
     }
 }
@@ -87,11 +83,7 @@ TEST_CASE("volume photons: what has come through smoke meets the smoke behind it
     options.integrator = IntegratorKind::Sppm;
     options.photons = 50000;
     options.photonRadius = 15.0f;
-    const Estimate photons = meanOf(traced, view, options, 8);
-    const double p = welchTest(path, kRuns, photons, kRuns);
-    CAPTURE(path.mean(), path.standardError(), photons.mean(), photons.standardError(), p);
-    CHECK(photons.standardError() < 0.02 * path.mean());
-    CHECK(p > 0.001); // a false alarm in a thousand seeds
+    checkAgreement(path, meanOf(traced, view, options, 8), 0.02, 0.001);
 }
 
 TEST_CASE("volume photons: the image of a light in a mirror shines in fog",

@@ -401,3 +401,29 @@ TEST_CASE("mesh light tree: places that stretch unevenly, and small meshes, have
     const SceneBuilder small = shining(sphereMesh(Vec3(0.0f), 0.5f, 10), {});
     CHECK_FALSE(LightTable(*small.scene).ownTree(1));
 }
+
+TEST_CASE("mesh light tree: none if all triangles of instances cannot be numbered", "[shading]")
+{
+    const auto mesh = sphereMesh(Vec3(0.0f), 0.5f, 256);
+    const uint32_t shining = 0xffffffffu / static_cast<uint32_t>(mesh->triangles.size()) + 1;
+    SceneBuilder builder;
+    const uint32_t first = builder.addEmissive(mesh, lamp(Vec3(1.0f)));
+    Scene& scene = *builder.scene;
+    scene.instances[first].placed = true;
+    const Instance instance = scene.instances[first];
+    const Light light = scene.lights[0];
+    for (uint32_t i = 1; i < shining; ++i)
+    {
+        scene.instances.push_back(instance);
+        scene.instances.back().engineFromLocal.translation.x = float(i);
+        scene.lights.push_back(light);
+        scene.lights.back().instance = static_cast<uint32_t>(scene.instances.size() - 1);
+    }
+    const LightTable table(scene);
+    CHECK_FALSE(table.tree());
+    CHECK_FALSE(table.ownTree(0));
+    REQUIRE(table.areaLights().size() == shining);
+    CHECK(table.sampleArea(shining - 1, Vec3(float(shining), 0.0f, 2.0f), 0.3f, 0.6f));
+    scene.lights.pop_back();
+    CHECK(LightTable(scene).tree());
+}
