@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/media/GridMarch.h"
 
+#include "osgRayTrace/base/Kernel.h"
 #include "osgRayTrace/media/GridRay.h"
 #include "osgRayTrace/media/VolumeSample.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -30,8 +32,49 @@ int stepCount(float length, float step, int most)
     return count >= 2.0f ? static_cast<int>(std::min(count, static_cast<float>(most))) : 2;
 }
 
+/// Tells how many steps of a ray lead through a block without any amount.
+class EmptySteps
+{
+public:
+    EmptySteps(const GridRecord& grid, Vec3 step) : _blocks(*grid.blocks)
+    {
+        const VolumeImage& image = *grid.volume->image;
+        _scale = Vec3(Vec3d(image.width, image.height, image.depth)) /
+                 static_cast<float>(ValueBlocks::kSide);
+        _stepsPerBlock = 1.0f / (step * _scale); // infinite along the axes of a block
+    }
+
+    /// Returns the number of steps after a point of the unit cube that stay in its block, or fewer;
+    /// 0 if there is anything in the block.
+    int after(Vec3 p) const
+    {
+        const Vec3 at = p * _scale;
+        const std::array<int, 3>& count = _blocks.values->count;
+        std::size_t block = 0;
+        float steps = kMost;
+        for (int k = 2; k >= 0; --k)
+        {
+            const int size = count[static_cast<std::size_t>(k)];
+            const int own = at[k] > 0.0f ? std::min(static_cast<int>(at[k]), size - 1) : 0;
+            block = block * static_cast<std::size_t>(size) + static_cast<std::size_t>(own);
+            const float border = static_cast<float>(_stepsPerBlock[k] > 0.0f ? own + 1 : own);
+            steps = std::min(steps, (border - at[k]) * _stepsPerBlock[k]);
+        }
+        if (_blocks.most[block] > 0.0f || !(steps > 2.0f)) return 0;
+        return static_cast<int>(steps) - 1; // sums of steps are rounded
+    }
+
+private:
+    static constexpr float kMost = 8192.0f;
+
+    const GridBlocks& _blocks;
+    Vec3 _scale;         ///< blocks of the unit cube
+    Vec3 _stepsPerBlock; ///< along each axis
+};
+
 /// Front to back, one step a cell and ratio.
-void marchCells(March march, MarchedVolume& result)
+OSGRAYTRACE_KERNEL
+void marchCells(const GridRecord& grid, March march, MarchedVolume& result)
 {
     const Volume& volume = march.volume;
     const VolumeImage& image = *volume.image;
@@ -41,6 +84,7 @@ void marchCells(March march, MarchedVolume& result)
     const Vec3 step = (march.to - march.from) / static_cast<float>(count - 1);
     const float scale = std::min(1.0f, 1.73f * glm::length(step) / glm::length(cell));
     march.gradientStep = gradientStep(volume, glm::length(step));
+    const EmptySteps empty(grid, step);
     float left = 1.0f;
     constexpr float kCutoff = 1.0f / 256.0f;
     Vec3 p = march.from, sum(0.0f);
@@ -49,8 +93,13 @@ void marchCells(March march, MarchedVolume& result)
     {
         const VolumePoint point = volumePoint(volume, p);
         const float alpha = std::clamp(point.opacity * volume.transparency, 0.0f, 1.0f);
-        if (!(alpha > 0.0f)) continue;
-        const float behind = left * std::pow(1.0f - alpha, scale);
+        if (!(alpha > 0.0f))
+        {
+            for (int rest = empty.after(p); rest > 0 && done + 1 < count; --rest, ++done)
+                p += step; // one by one, so that all points are those without empty blocks
+            continue;
+        }
+        const float behind = left * (scale < 1.0f ? std::pow(1.0f - alpha, scale) : 1.0f - alpha);
         const Vec3 color = volume.lit ? point.color * lightScale(image, p, march.gradientStep,
                                                                  march.lightDirection)
                                       : point.color;
@@ -62,6 +111,7 @@ void marchCells(March march, MarchedVolume& result)
 }
 
 /// Back to front, one step a sample length.
+OSGRAYTRACE_KERNEL
 void marchSamples(March march, MarchedVolume& result)
 {
     const Volume& volume = march.volume;
@@ -119,7 +169,7 @@ MarchedVolume march(const GridRecord& grid, Vec3 origin, Vec3 direction, float b
     if (grid.volume->law == VolumeLaw::Samples)
         marchSamples(way, result);
     else
-        marchCells(way, result);
+        marchCells(grid, way, result);
     return result;
 }
 

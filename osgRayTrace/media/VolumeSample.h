@@ -6,6 +6,7 @@
 // if the opacity is a share of light that a step or a cell takes away.
 #pragma once
 
+#include "osgRayTrace/base/Kernel.h"
 #include "osgRayTrace/scene/Volume.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ struct Corner
     float fx, fy, fz;
 };
 
-inline Corner cornerOf(const VolumeImage& image, Vec3 p)
+OSGRAYTRACE_INLINE Corner cornerOf(const VolumeImage& image, Vec3 p)
 {
     const float x = p.x * static_cast<float>(image.width) - 0.5f;
     const float y = p.y * static_cast<float>(image.height) - 0.5f;
@@ -80,19 +81,54 @@ inline Corner cornerOf(const VolumeImage& image, Vec3 p)
             share(x, corner.x), share(y, corner.y), share(z, corner.z)};
 }
 
-template <class T> float channelAt(const VolumeImage& image, const T* data, const Corner& at, int c)
+/// Returns the mean of eight values, of which those of v[0] are the lower ones along z, and within
+/// them the lower row along y first.
+OSGRAYTRACE_INLINE float meanOf(const float (&v)[2][2][2], const Corner& at)
 {
-    const auto value = [&](int x, int y, int z)
-    { return valueAt(image, data, at.x + x, at.y + y, at.z + z, c); };
     const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
-    const float low = mix(mix(value(0, 0, 0), value(1, 0, 0), at.fx),
-                          mix(value(0, 1, 0), value(1, 1, 0), at.fx), at.fy);
-    const float high = mix(mix(value(0, 0, 1), value(1, 0, 1), at.fx),
-                           mix(value(0, 1, 1), value(1, 1, 1), at.fx), at.fy);
+    const float low =
+        mix(mix(v[0][0][0], v[0][0][1], at.fx), mix(v[0][1][0], v[0][1][1], at.fx), at.fy);
+    const float high =
+        mix(mix(v[1][0][0], v[1][0][1], at.fx), mix(v[1][1][0], v[1][1][1], at.fx), at.fy);
     return mix(low, high, at.fz);
 }
 
-inline float channelAt(const VolumeImage& image, const Corner& at, int c)
+/// The same where some of the voxels are beyond the image, and 0.
+template <class T>
+float channelAtEdge(const VolumeImage& image, const T* data, const Corner& at, int c)
+{
+    float v[2][2][2];
+    for (int z = 0; z < 2; ++z)
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 2; ++x)
+                v[z][y][x] = valueAt(image, data, at.x + x, at.y + y, at.z + z, c);
+    return meanOf(v, at);
+}
+
+template <class T>
+OSGRAYTRACE_INLINE float channelAt(const VolumeImage& image, const T* data, const Corner& at, int c)
+{
+    float v[2][2][2];
+    const auto isBetween = [](int x, int size)
+    { return static_cast<unsigned>(x) < static_cast<unsigned>(size - 1); };
+    if (!isBetween(at.x, image.width) || !isBetween(at.y, image.height) ||
+        !isBetween(at.z, image.depth))
+        return channelAtEdge(image, data, at, c);
+    // Most points have all eight voxels.
+    const auto column = static_cast<std::size_t>(image.channels);
+    const std::size_t row = column * static_cast<std::size_t>(image.width);
+    const std::size_t slice = row * static_cast<std::size_t>(image.height);
+    const T* first = data + static_cast<std::size_t>(at.z) * slice +
+                     static_cast<std::size_t>(at.y) * row +
+                     static_cast<std::size_t>(at.x) * column + static_cast<std::size_t>(c);
+    for (std::size_t z = 0; z < 2; ++z)
+        for (std::size_t y = 0; y < 2; ++y)
+            for (std::size_t x = 0; x < 2; ++x)
+                v[z][y][x] = static_cast<float>(first[z * slice + y * row + x * column]);
+    return meanOf(v, at);
+}
+
+OSGRAYTRACE_INLINE float channelAt(const VolumeImage& image, const Corner& at, int c)
 {
     return image.floats.empty() ? channelAt(image, image.bytes.data(), at, c) * (1.0f / 255.0f)
                                 : channelAt(image, image.floats.data(), at, c);
@@ -128,7 +164,7 @@ inline Vec4 transferred(const Volume& volume, float value)
 }
 
 /// Returns the colour and the value of the image at a point of its unit cube.
-inline Voxel voxelAt(const VolumeImage& image, Vec3 p)
+OSGRAYTRACE_INLINE Voxel voxelAt(const VolumeImage& image, Vec3 p)
 {
     const detail::Corner at = detail::cornerOf(image, p);
     Voxel voxel;
@@ -150,7 +186,7 @@ struct VolumePoint
 
 /// Returns the colour and opacity at a point of the image's unit cube. Nothing is where the cut-off
 /// of the law leaves nothing.
-inline VolumePoint volumePoint(const Volume& volume, Vec3 p)
+OSGRAYTRACE_INLINE VolumePoint volumePoint(const Volume& volume, Vec3 p)
 {
     const Voxel voxel = voxelAt(*volume.image, p);
     VolumePoint point{voxel.color, voxel.value};

@@ -1,5 +1,6 @@
 // VolumeFlightsTest.cpp - flights through volumes compared with closed forms.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/media/GridMarch.h"
 #include "osgRayTrace/media/GridRay.h"
 
 #include "tests/integrators/VolumeScenes.h"
@@ -135,4 +136,44 @@ TEST_CASE("volumes: tentative collisions integrate over all that is within reach
     GridRay past(table, {-1, 2.3f, 2}, {1, 0, 0}, 0.0f, 9.0f);
     past.setReach(reach, {0.0f, 9.0f});
     CHECK_FALSE(past.isReached());
+}
+
+TEST_CASE("volumes: steps through empty blocks change no bit of what a ray sees",
+          "[integrators][volumes]")
+{
+    // A few balls in a volume of unequal sides, so that most blocks are empty.
+    const auto balls = newVolumeImage(
+        61, 24, 40,
+        [](int x, int y, int z)
+        {
+            float most = 0.0f;
+            for (const Vec3& center : {Vec3(9, 8, 9), Vec3(50, 17, 31), Vec3(30, 3, 20)})
+                most = std::max(most, 1.0f - glm::length(Vec3(Vec3d(x, y, z)) - center) / 6.0f);
+            return most;
+        });
+    Scene scene;
+    scene.volumes.push_back(densityIn({0, 0, 0}, {3, 1, 2}, balls, {}));
+    scene.volumes[0].law = VolumeLaw::Cells;
+    scene.volumes[0].cutoff = 0.05f;
+    const GridTable table(scene, nullptr, nullptr, nullptr);
+    GridBlocks full = *table[0].blocks;
+    CHECK(std::count(full.most.begin(), full.most.end(), 0.0f) >
+          std::ptrdiff_t(full.most.size()) / 2);
+    std::fill(full.most.begin(), full.most.end(), 1.0f);
+    GridRecord whole = table[0];
+    whole.blocks = std::make_shared<const GridBlocks>(full);
+    Uniform random(17);
+    int seen = 0;
+    for (int i = 0; i < 4000; ++i)
+    {
+        const Vec3 origin(random.between(-2, 5), random.between(-2, 3), random.between(-2, 4));
+        const Vec3 inside(random.between(0, 3), random.between(0, 1), random.between(0, 2));
+        Vec3 direction = glm::normalize(inside - origin);
+        if (i % 4 == 0) direction = Vec3(1.0f, 0.0f, 0.0f);
+        const MarchedVolume a = march(table[0], origin, direction, 0.0f, 20.0f, {});
+        const MarchedVolume b = march(whole, origin, direction, 0.0f, 20.0f, {});
+        if (a.color != b.color || a.opacity != b.opacity) FAIL("ray " << i);
+        seen += a.opacity > 0.0f;
+    }
+    CHECK(seen > 400);
 }
