@@ -38,6 +38,20 @@ ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
 {
 }
 
+/// Returns the rules by which a SceneBuilder adds to the scene. subtree is the unwatched subtree of
+/// what it adds, or kNoSubtree.
+BuildRules ScenePatcher::patchRules(uint32_t subtree) const
+{
+    BuildRules rules;
+    rules.linear = !_scene->displayReferred;
+    rules.setsColor = _convertedGraph.setsColor;
+    rules.comparable = true;
+    rules.patches = true;
+    rules.subtree = subtree;
+    rules.now = _now;
+    return rules;
+}
+
 osg::NodePath ScenePatcher::fromRoot(const osg::NodePath& path) const
 {
     osg::NodePath whole = path;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SubtreeComparison.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
@@ -202,15 +201,9 @@ ConversionCause ScenePatcher::addUses(const CollectedGraph& graph,
     for (const GeometryUse& use : geometry.uses)
         if (use.proxy && mayEnclose(*_scene, *geometry.bounds, use.engineFromLocal))
             return ConversionCause::CullTraversal;
-    BuildRules rules;
-    rules.linear = !_scene->displayReferred;
-    rules.setsColor = _convertedGraph.setsColor;
-    rules.comparable = true;
-    rules.patches = true;
-    rules.subtree = subtree;
-    rules.now = _now;
     ConversionReport report;
-    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
+    SceneBuilder builder(_input, graph, patchRules(subtree), _caches, _convertedGraph, *_scene,
+                         report);
     const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
     const bool isElsewhere = known != _convertedGraph.index.geometries.end() &&
                              !_convertedGraph.index.isLeft(*geometry.geometry);
