@@ -233,12 +233,14 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
     return report.remarks() == 0 ? ConversionCause::None : ConversionCause::Reported;
 }
 
-/// Drops removed geometries from the cache, but keeps those that came back in another place.
+/// Drops removed geometries from the caches, but keeps those that came back in another place.
 void ScenePatcher::dropRemoved()
 {
     for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
         if (_convertedGraph.index.geometries.count(geometry) == 0)
             _caches.geometries.drop(geometry);
+    _caches.vertices.dropUnshared();
+    _caches.triangles.dropUnshared();
 }
 
 } // namespace osgRayTrace::engine
