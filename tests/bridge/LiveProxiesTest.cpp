@@ -8,6 +8,7 @@
 #include <osg/Depth>
 #include <osg/LOD>
 #include <osg/Program>
+#include <osg/ShapeDrawable>
 #include <osg/observer_ptr>
 #include <osgAnimation/MorphGeometry>
 #include <osgAnimation/MorphTransformHardware>
@@ -15,6 +16,7 @@
 #include <vector>
 
 using namespace osgRayTrace;
+using namespace osgRayTrace::engine;
 using namespace osgRayTrace::test;
 
 namespace
@@ -156,4 +158,47 @@ TEST_CASE("proxies: drawables of a page that expires are let go of without a con
     CHECK(view.statistics().conversions == 1);
     for (const osg::observer_ptr<osg::Node>& drawable : gone)
         CHECK(!drawable.valid());
+}
+
+TEST_CASE("proxies: a dome has one again once something is outside", "[bridge]")
+{
+    LiveGraph graph;
+    graph.light->getLight()->setPosition(osg::Vec4(0.3f, 0.2f, 1.0f, 0.0f));
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+    const osg::ref_ptr<osg::ShapeDrawable> dome =
+        new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(1.0f, 0.5f, 0.0f), 8.0f));
+    addProgram(*dome);
+    place->addChild(dome);
+    const osg::ref_ptr<osg::Group> holder = GENERATE(false, true) ? new osg::LOD : new osg::Group;
+    holder->addChild(place);
+    if (auto* levels = dynamic_cast<osg::LOD*>(holder.get())) levels->setRange(0, 0.0f, 1e6f);
+    graph.root->addChild(holder);
+    LiveView view(graph.root);
+    const auto check = [&](uint64_t proxies, uint64_t conversions)
+    {
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+        CHECK(view.statistics().conversion.count(kProxy) == proxies);
+        CAPTURE(view.statistics().lastConversionReason);
+        CHECK(view.statistics().conversions == conversions);
+    };
+    check(0, 1);
+    const auto moveDome = [&](double x) { place->setMatrix(osg::Matrixd::translate(x, 0, 0)); };
+    for (const double x : {0.5, 1.0}) // as skies follow the eye
+    {
+        moveDome(x);
+        check(0, 1);
+    }
+    graph.objects[4]->setMatrix(osg::Matrixd::translate(30, 1, 0.1));
+    check(1, 2);
+    CHECK(view.statistics().lastConversionReason == textOf(ConversionCause::Enclosure));
+    for (const double x : {31.0, 29.0})
+    {
+        moveDome(0.05 * x);
+        graph.objects[4]->setMatrix(osg::Matrixd::translate(x, 1, 0.1));
+        check(1, 2);
+    }
+    graph.objects[4]->setMatrix(osg::Matrixd::translate(1, 1, 0.1));
+    check(0, 3);
+    moveDome(9.0);
+    check(1, 4);
 }

@@ -83,6 +83,7 @@ private:
     ConversionCause addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
                                 const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
+    bool encloseStill(const std::vector<MovedUse>& moved);
     bool recut(const std::vector<PlacedClip>& clips);
     bool recut(ClippedUse& use);
     bool changeStates(const std::vector<StateChange>& uses);

@@ -31,13 +31,19 @@ bool isLeftAbove(const osg::NodePath& path, const std::vector<unsigned int>& vie
     return std::any_of(path.begin(), path.end() - 1, mayBeLeft);
 }
 
-/// Drops what is known to have no proxy, as it would enclose the scene.
-void dropKnownEnclosures(CollectedGraph& graph, const ConvertedSubtrees& subtrees)
+/// Drops what is known to have no proxy, as it would enclose the scene, and records where it is:
+/// see ScenePatcher::encloseStill().
+void dropKnownEnclosures(CollectedGraph& graph, ConvertedSubtrees& subtrees)
 {
     const auto encloses = [&subtrees](const CollectedGeometry& geometry)
     {
-        return geometry.isProxy() && geometry.uses.size() == 1 &&
-               subtrees.isEnclosure(*geometry.geometry);
+        if (!geometry.isProxy() || geometry.uses.size() != 1) return false;
+        Enclosure* enclosure = subtrees.enclosure(*geometry.geometry);
+        if (!enclosure) return false;
+        enclosure->engineFromLocal = geometry.uses[0].engineFromLocal;
+        enclosure->bounds = *geometry.bounds;
+        enclosure->moved = true;
+        return enclosure->encloses;
     };
     graph.geometries.erase(
         std::remove_if(graph.geometries.begin(), graph.geometries.end(), encloses),
