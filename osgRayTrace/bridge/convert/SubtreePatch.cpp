@@ -96,7 +96,8 @@ bool ScenePatcher::redo(const ChangedSubtree& changed)
     for (CollectedGeometry& geometry : graph.geometries)
     {
         geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
-        if (!_convertedGraph.index.geometries.count(geometry.geometry))
+        if (geometry.bounds->count < kPlacedVertices &&
+            !_convertedGraph.index.geometries.count(geometry.geometry))
             more += geometry.bounds->count;
     }
     if (more > kSmallStatic && more >= _caches.staticVertices)
