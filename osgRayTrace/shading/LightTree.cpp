@@ -26,6 +26,12 @@ void SpareLightArrays::give(LightArrays&& arrays)
     std::swap(_arrays, arrays);
 }
 
+bool SpareLightArrays::isEmpty()
+{
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _arrays.emitters.size() == 0;
+}
+
 LightTree::LightTree(const LightEmitters& emitters, const Workers* workers)
     : _spare(std::make_shared<SpareLightArrays>())
 {

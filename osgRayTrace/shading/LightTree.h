@@ -60,6 +60,8 @@ public:
     /// Frees what is kept.
     void clear() { give({}); }
 
+    bool isEmpty();
+
 private:
     std::mutex _mutex;
     LightArrays _arrays;
@@ -91,6 +93,7 @@ public:
 
     /// Frees the memory that is kept for the next tree of this shape.
     void clearSpare() const { _spare->clear(); }
+    bool hasSpare() const { return !_spare->isEmpty(); }
 
     /// Returns bounds of all its lights.
     const LightBounds& bounds() const { return _bounds; }

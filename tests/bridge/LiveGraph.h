@@ -68,6 +68,14 @@ public:
 
     int passes() const { return _tracer.progress().passes; }
     Statistics statistics() const { return _updater.statistics(); }
+    engine::SceneVersion version() const { return _updater.version(); }
+
+    /// Does what picks do: from then on there is an index for them.
+    engine::SceneVersion versionToPick()
+    {
+        return _updater.versionToPick(_root, *_settings, osg::Vec3d());
+    }
+
     const engine::Scene* scene() const { return &_updater.version().inputs.scene->scene(); }
 
 private:

@@ -9,6 +9,8 @@
 #include <osg/LOD>
 #include <osg/PolygonOffset>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -151,6 +153,34 @@ TEST_CASE("at rest: a level of detail whose content is replaced is redone alone"
     check();
     graph.materials[0]->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(1, 0, 0, 1));
     check();
+}
+
+TEST_CASE("at rest: tiles below levels of detail take no static BVH along", "[bridge]")
+{
+    LiveGraph graph;
+    std::vector<osg::ref_ptr<osg::LOD>> tiles;
+    for (int tile = 0; tile < 2; ++tile)
+    {
+        tiles.push_back(new osg::LOD);
+        tiles.back()->addChild(newFloor(), 0.0f, 1e6f);
+        graph.root->addChild(tiles.back());
+    }
+    LiveView view(graph.root);
+    const auto isInStaticBvh = [&](const Instance& instance)
+    { return !instance.placed && view.scene()->meshes[instance.mesh]->positions.size() > 1000; };
+    for (int time = 0; time < 5; ++time)
+    {
+        const std::vector<Instance>& instances = view.scene()->instances;
+        CHECK(std::none_of(instances.begin(), instances.end(), isInStaticBvh));
+        const osg::ref_ptr<osg::Geometry> floor = newFloor();
+        auto& vertices = static_cast<osg::Vec3Array&>(*floor->getVertexArray());
+        for (osg::Vec3& p : vertices)
+            p.z() += 0.02f * float(time + 1) * std::sin(p.x());
+        tiles[0]->setChild(0, floor);
+        CHECK(wrongPixels(view, *graph.root) <= kRoundedPixels);
+        CAPTURE(view.statistics().lastConversionReason);
+        CHECK(view.statistics().conversions == 1);
+    }
 }
 
 TEST_CASE("at rest: what depends on the view is redone for the view of now", "[bridge]")

@@ -14,13 +14,11 @@
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 #include "osgRayTrace/bridge/graph/RasterizedParts.h"
 #include "osgRayTrace/bridge/update/ViewMasks.h"
+#include "tests/clients/CullLeaves.h"
 
 #include <osgRayTrace/RayTracedScene>
 
-#include <osg/ColorMask>
 #include <osgUtil/CullVisitor>
-#include <osgUtil/RenderStage>
-#include <osgUtil/StateGraph>
 
 #include <dlfcn.h>
 
@@ -28,7 +26,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
@@ -37,91 +34,12 @@
 
 using namespace osgRayTrace;
 using namespace osgRayTrace::engine;
+using namespace osgRayTrace::test;
 
 namespace
 {
 
-struct Leaf
-{
-    osg::ref_ptr<const osg::Drawable> drawable;
-    osg::Matrixd modelView;
-    bool ownStage = false; ///< whether a camera below the view draws the leaf
-};
-
-using Leaves = std::vector<Leaf>;
 using Places = std::map<const osg::Drawable*, std::vector<osg::Matrixd>>;
-
-/// Returns whether a state keeps every colour out of the picture, as of tests for occlusion.
-bool isInvisible(const osgUtil::StateGraph* graph)
-{
-    for (; graph; graph = graph->_parent)
-    {
-        const osg::StateSet* states = graph->getStateSet();
-        const auto* mask = states ? dynamic_cast<const osg::ColorMask*>(
-                                        states->getAttribute(osg::StateAttribute::COLORMASK))
-                                  : nullptr;
-        if (mask) return !mask->getRedMask() && !mask->getGreenMask() && !mask->getBlueMask();
-    }
-    return false;
-}
-
-void addLeaves(osgUtil::RenderBin& bin, bool ownStage, Leaves& leaves)
-{
-    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
-        for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : graph->_leaves)
-            if (leaf->getDrawable() && !isInvisible(graph))
-                leaves.push_back({leaf->getDrawable(),
-                                  leaf->_modelview ? *leaf->_modelview : osg::Matrixd(), ownStage});
-    for (const auto& [number, inner] : bin.getRenderBinList())
-        addLeaves(*inner, ownStage, leaves);
-}
-
-void addStages(osgUtil::RenderStage& stage, bool own, Leaves& leaves)
-{
-    addLeaves(stage, own, leaves);
-    for (const auto* list : {&stage.getPreRenderList(), &stage.getPostRenderList()})
-        for (const auto& [number, inner] : *list)
-            addStages(*inner, true, leaves);
-}
-
-/// Returns the leaves of a cull traversal of the visitor's pass without culling.
-Leaves leavesOf(const CullPass& pass, const ViewingConditions& conditions,
-                const std::function<void(osgUtil::CullVisitor&)>& traverse)
-{
-    const osg::ref_ptr<osgUtil::RenderStage> stage = new osgUtil::RenderStage;
-    const osg::ref_ptr<osgUtil::StateGraph> graph = new osgUtil::StateGraph;
-    const osg::ref_ptr<osg::Viewport> viewport =
-        new osg::Viewport(0, 0, conditions.view->width, conditions.view->height);
-    osg::ref_ptr<osg::Camera> camera;
-    pass.camera.lock(camera);
-    stage->setViewport(viewport.get());
-    stage->setCamera(camera.get());
-    stage->setInitialViewMatrix(new osg::RefMatrix(conditions.view->viewFromWorld));
-
-    osgUtil::CullVisitor& visitor = *pass.visitor;
-    visitor.reset();
-    visitor.getNodePath().clear();
-    visitor.setFrameStamp(pass.frameStamp.get());
-    visitor.setTraversalNumber(pass.frameStamp->getFrameNumber());
-    visitor.setTraversalMask(conditions.traversalMask);
-    visitor.setInheritanceMask(0);
-    visitor.setCullingMode(osg::CullSettings::NO_CULLING);
-    visitor.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    visitor.setLODScale(conditions.view->lodScale);
-    visitor.setDatabaseRequestHandler(nullptr);
-    osg::RenderInfo renderInfo = pass.original->getRenderInfo();
-    visitor.setRenderInfo(renderInfo);
-    visitor.setStateGraph(graph.get());
-    visitor.setRenderStage(stage.get());
-    visitor.pushViewport(viewport.get());
-    visitor.pushProjectionMatrix(new osg::RefMatrix(conditions.view->projection));
-    visitor.pushModelViewMatrix(new osg::RefMatrix(conditions.view->viewFromWorld),
-                                osg::Transform::ABSOLUTE_RF);
-    traverse(visitor);
-    Leaves leaves;
-    addStages(*stage, false, leaves);
-    return leaves;
-}
 
 /// masks: traversal masks of all views.
 ConversionInput inputOf(const ViewingConditions& conditions, const std::set<unsigned int>& masks,
@@ -214,6 +132,7 @@ struct Found
     Places drawn;  ///< places of what OSG draws
     std::map<const osg::PrimitiveSet*, std::vector<osg::Matrixd>> drawnSets;
     std::map<std::string, std::vector<osg::Matrixd>> madeInCull; ///< by class
+    std::set<const osg::Drawable*> boxes; ///< with which OSG draws volumes that are traced
 };
 
 Found find(const CollectedGraph& graph, const Leaves& drawn, const osg::Matrixd& viewFromScene)
@@ -263,6 +182,11 @@ void judge(const Leaf& leaf, const Found& found, Tally& tally)
     if (drawnAlike || holds(found.drawn, leaf.drawable.get(), leaf.modelView))
     {
         ++tally.drawn;
+        return;
+    }
+    if (found.boxes.count(&drawable))
+    {
+        ++tally.traced;
         return;
     }
     if (isEmpty(drawable) || !placingMatrix(leaf.modelView, 0.0))
@@ -394,7 +318,13 @@ void check(RayTracedScene& scene, osgUtil::CullVisitor& visitor,
                                       begin(clone);
                                       cullParts(graph.rasterized, clone);
                                   });
-    const Found found = find(graph, drawn, now.conditions.view->viewFromWorld);
+    Found found = find(graph, drawn, now.conditions.view->viewFromWorld);
+    for (const CollectedTile& tile : graph.lights.tiles)
+        for (const Leaf& leaf :
+             leavesOf(*now.conditions.pass, now.conditions,
+                      [&](osgUtil::CullVisitor& clone)
+                      { const_cast<osgVolume::VolumeTile&>(*tile.tile).accept(clone); }))
+            found.boxes.insert(leaf.drawable.get());
     Tally tally;
     for (const Leaf& leaf : plain)
         judge(leaf, found, tally);

@@ -387,6 +387,22 @@ TEST_CASE("mesh light tree: a mesh that deforms keeps the shape of its tree", "[
     CHECK(worstSum(*now.tree(), 50) < 2e-5);
 }
 
+TEST_CASE("mesh light tree: what the next deformation would use is freed at rest", "[shading]")
+{
+    const SceneBuilder builder = shining(halfSphere(), {});
+    const SceneBuilder stretched = shining(halfSphere(1.2f), {});
+    auto before = std::make_unique<const LightTable>(*builder.scene);
+    const LightTable now(*stretched.scene, before.get());
+    before.reset();
+    const LightTree& own = *now.ownTree(1)->own->tree;
+    REQUIRE(own.hasSpare());
+    REQUIRE(now.tree()->top()->hasSpare());
+    const LightTable resting(*stretched.scene, &now);
+    REQUIRE(resting.ownTree(1)->own->tree.get() == &own);
+    CHECK_FALSE(own.hasSpare());
+    CHECK_FALSE(now.tree()->top()->hasSpare());
+}
+
 TEST_CASE("mesh light tree: places that stretch unevenly, and small meshes, have none", "[shading]")
 {
     Places places;

@@ -88,6 +88,8 @@ constexpr CauseText kTexts[] = {
     {ConversionCause::LinesOrPoints, "a geometry has deformed that has lines or points"},
     {ConversionCause::CullTraversal,
      "a cull traversal of the application's shows something else, or something came below one"},
+    {ConversionCause::Enclosure,
+     "something has left what enclosed the scene, or nothing is outside of it any more"},
 };
 
 constexpr bool isInOrder()

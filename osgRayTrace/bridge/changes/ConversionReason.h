@@ -64,9 +64,10 @@ enum class ConversionCause : uint8_t
     NoMesh,
     LinesOrPoints,
     CullTraversal,
+    Enclosure,
 };
 
-constexpr ConversionCause kLastCause = ConversionCause::CullTraversal;
+constexpr ConversionCause kLastCause = ConversionCause::Enclosure;
 
 /// Returns one clause, such as "children of a node are in another order"; it is empty for None.
 const char* textOf(ConversionCause cause);

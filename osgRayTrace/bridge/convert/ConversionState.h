@@ -26,6 +26,10 @@ namespace osgRayTrace::engine
 /// Vertices of a static BVH below which it is rebuilt in negligible time.
 constexpr uint64_t kSmallStatic = 32768;
 
+/// Vertices from which on what may be exchanged as a whole has a BVH of its own: rays find it there
+/// about as fast as in the static BVH, which would be built again.
+constexpr uint64_t kPlacedVertices = 256;
+
 /// Holds parts that are converted again only if they have changed.
 struct ConversionCaches
 {

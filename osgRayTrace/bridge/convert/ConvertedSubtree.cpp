@@ -56,9 +56,12 @@ uint32_t ConvertedSubtrees::find(const osg::NodePath& path) const
     return found;
 }
 
-bool ConvertedSubtrees::isEnclosure(const osg::Geometry& geometry) const
+Enclosure* ConvertedSubtrees::enclosure(const osg::Geometry& geometry)
 {
-    return std::find(enclosures.begin(), enclosures.end(), &geometry) != enclosures.end();
+    const auto found =
+        std::find_if(enclosures.begin(), enclosures.end(),
+                     [&](const Enclosure& one) { return one.geometry == &geometry; });
+    return found == enclosures.end() ? nullptr : &*found;
 }
 
 void ConvertedSubtrees::setParts(uint32_t subtree, RasterizedParts fresh)

@@ -31,7 +31,7 @@ struct ConvertedSubtrees
     std::vector<ConvertedSubtree> all; ///< in the order of the traversal; indices stay
     std::shared_ptr<const RasterizedParts> parts = std::make_shared<RasterizedParts>();
     std::vector<uint32_t> partSubtrees; ///< CollectedGraph::rasterizedSubtrees
-    std::vector<osg::ref_ptr<const osg::Geometry>> enclosures; ///< CollectedGraph::enclosures
+    std::vector<Enclosure> enclosures;  ///< CollectedGraph::enclosures, where they are now
 
     /// Takes the lists of a graph, without its parts.
     void record(CollectedGraph& graph);
@@ -40,7 +40,8 @@ struct ConvertedSubtrees
     /// none, or several are at the same path.
     uint32_t find(const osg::NodePath& path) const;
 
-    bool isEnclosure(const osg::Geometry& geometry) const;
+    /// Returns what the only use of a geometry is; null: it is no enclosure.
+    Enclosure* enclosure(const osg::Geometry& geometry);
 
     /// Exchanges the parts of a subtree.
     void setParts(uint32_t subtree, RasterizedParts fresh);

@@ -4,7 +4,6 @@
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
@@ -115,15 +114,10 @@ ConversionCause ScenePatcher::addProxy(const CollectedGraph& graph,
                     { return other.instance != kInvalid || other.effects != kInvalid; });
     if (isTraced) return ConversionCause::OtherPaths;
     _convertedGraph.index.removeUses(traced);
-    BuildRules rules;
-    rules.linear = !_scene->displayReferred;
-    rules.setsColor = _convertedGraph.setsColor;
-    rules.comparable = true;
-    rules.patches = true;
-    rules.subtree = subtree;
-    rules.now = _now;
     ConversionReport report;
-    SceneBuilder(_input, graph, rules, _caches, _convertedGraph, *_scene, report).add(geometry);
+    SceneBuilder builder(_input, graph, patchRules(subtree), _caches, _convertedGraph, *_scene,
+                         report);
+    builder.add(geometry);
     const uint32_t index = traced.uses.front().instance;
     const uint64_t remarks = index == kInvalid ? 0 : 1; // it is counted as a proxy
     if (report.remarks() != remarks) return ConversionCause::Reported;

@@ -178,8 +178,9 @@ void drop(const std::vector<PlacedUse>& uses, std::size_t count, CollectedGraph&
     for (std::size_t i = 0; i < count; ++i)
     {
         CollectedGeometry& geometry = graph.geometries[uses[i].geometry];
-        geometry.uses[uses[i].use].state = kInvalid;
-        graph.enclosures.push_back(geometry.geometry);
+        GeometryUse& use = geometry.uses[uses[i].use];
+        use.state = kInvalid;
+        graph.enclosures.push_back({geometry.geometry, use.engineFromLocal, *geometry.bounds});
     }
     for (CollectedGeometry& geometry : graph.geometries)
         geometry.uses.erase(std::remove_if(geometry.uses.begin(), geometry.uses.end(),
@@ -208,7 +209,12 @@ void dropEnclosures(CollectedGraph& graph, const ConversionInput& input)
         const bool encloses =
             std::all_of(uses.begin() + static_cast<std::ptrdiff_t>(dropped) + 1, uses.end(),
                         [&outer](const PlacedUse& use) { return outer.box.contains(use.box); });
-        if (!encloses) break;
+        if (!encloses)
+        {
+            graph.enclosures.push_back({geometry.geometry, geometry.uses[outer.use].engineFromLocal,
+                                        *geometry.bounds, false});
+            break;
+        }
         MeshRequest request;
         request.restart = geometry.restart;
         request.transform = geometry.uses[outer.use].engineFromLocal;
@@ -221,7 +227,8 @@ void dropEnclosures(CollectedGraph& graph, const ConversionInput& input)
     if (dropped > 0) drop(uses, dropped, graph);
 }
 
-bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal)
+bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal,
+                Stamp since)
 {
     Vec3d low(std::numeric_limits<double>::infinity()), high = -low;
     for (int corner = 0; corner < 8; ++corner)
@@ -237,12 +244,22 @@ bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matri
     const auto isOutside = [&](const Instance& instance)
     {
         const Mesh& mesh = *scene.meshes[instance.mesh];
-        if (mesh.positions.empty()) return false;
+        if (instance.changed < since || mesh.positions.empty()) return false;
         const Vec3d p(transformPoint(instance.engineFromLocal, mesh.positions[0]));
         return glm::any(glm::lessThan(p, low - margin)) ||
                glm::any(glm::greaterThan(p, high + margin));
     };
     return std::none_of(scene.instances.begin(), scene.instances.end(), isOutside);
+}
+
+void dropDoubtful(std::vector<Enclosure>& enclosures, const Scene& scene)
+{
+    enclosures.erase(std::remove_if(enclosures.begin(), enclosures.end(),
+                                    [&scene](const Enclosure& one) {
+                                        return !one.encloses &&
+                                               mayEnclose(scene, one.bounds, one.engineFromLocal);
+                                    }),
+                     enclosures.end());
 }
 
 } // namespace osgRayTrace::engine

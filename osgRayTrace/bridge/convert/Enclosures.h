@@ -6,6 +6,8 @@
 #include "osgRayTrace/bridge/graph/ConversionInput.h"
 #include "osgRayTrace/scene/Scene.h"
 
+#include <vector>
+
 namespace osgRayTrace::engine
 {
 
@@ -19,8 +21,12 @@ void dropEnclosures(CollectedGraph& graph, const ConversionInput& input);
 
 /// Returns whether a use may enclose all of a scene, for which it would have no proxy (see
 /// Enclosures.h): no mesh of the scene is known to have a corner outside its box. A mesh is asked
-/// for its first corner alone.
-bool mayEnclose(const Scene& scene, const VertexBounds& bounds,
-                const osg::Matrixd& engineFromLocal);
+/// for its first corner alone. Only instances that have changed since a stamp are asked; 0: all.
+bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal,
+                Stamp since = 0);
+
+/// Drops what has a proxy, but may enclose the scene as far as mayEnclose() can tell: patches would
+/// find it changed.
+void dropDoubtful(std::vector<Enclosure>& enclosures, const Scene& scene);
 
 } // namespace osgRayTrace::engine

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/common/FlatMatrix.h"
 #include "osgRayTrace/bridge/geometry/MeshPlacement.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -163,7 +164,7 @@ bool PlacePatcher::place(const osg::Geometry& geometry, uint32_t index,
 }
 
 /// Makes a mesh from the arrays as they are. Returns false if the count of bad data differs from
-/// the last one, because the report would change.
+/// the last one, because the report would change. It tells nothing of proxies.
 bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& request,
                             uint32_t meshIndex)
 {
@@ -172,7 +173,11 @@ bool PlacePatcher::makeMesh(const osg::Geometry& geometry, const MeshRequest& re
     ConversionReport report;
     const auto result =
         _geometries.mesh(geometry, GeometryCache::kOwnVariant, request, mesh->name, report);
-    if (!result || report.counts() != before) return refuse(ConversionCause::Reported);
+    const std::vector<TracedUse>& uses = _index.geometries.at(&geometry).uses;
+    const bool isProxy = std::all_of(uses.begin(), uses.end(),
+                                     [](const TracedUse& use) { return use.effects == kInvalid; });
+    if (!result || (!isProxy && report.counts() != before))
+        return refuse(ConversionCause::Reported);
     mesh = result;
     return true;
 }

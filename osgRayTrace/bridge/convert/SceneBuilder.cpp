@@ -155,7 +155,8 @@ void SceneBuilder::recordNew()
 }
 
 /// Returns whether a geometry is used more often than once or is not still: a geometry that has
-/// moved or deformed since it came is expected to do so again.
+/// moved or deformed since it came is expected to do so again, and one that a viewer may exchange
+/// with all of its subtree to go.
 bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
 {
     const osg::Geometry& geometry = *collected.geometry;
@@ -172,6 +173,9 @@ bool SceneBuilder::isPlaced(const CollectedGeometry& collected)
         cache.recordMobility(geometry, Mobility::Dynamic);
     else if (once && (_rules.patches || _caches.noStaticBvh ||
                       (_rules.comparable && !last && !_newJoinStatic)))
+        cache.recordMobility(geometry, Mobility::Dynamic);
+    else if (once && _input.rasterizesRest && collected.uses.front().subtree != kNoSubtree &&
+             collected.bounds->count >= kPlacedVertices)
         cache.recordMobility(geometry, Mobility::Dynamic);
     return !once || cache.mobility(geometry) != Mobility::Static;
 }

@@ -221,6 +221,7 @@ ConversionResult SceneConverter::convert(const ConversionInput& input)
     state.convertedGraph.clearColor = graph.clearColor;
     state.convertedGraph.inScene = std::move(graph.inScene);
     state.convertedGraph.texGens = graph.texGens;
+    dropDoubtful(graph.enclosures, *scene);
     state.convertedGraph.subtrees.record(graph);
     state.convertedGraph.clipPlanes = graph.clipPlanes;
     state.convertedGraph.cuttingPlanes = graph.cuttingPlanes;

@@ -6,6 +6,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialValues.h"
 #include "osgRayTrace/bridge/common/NodePathText.h"
 #include "osgRayTrace/bridge/convert/Background.h"
+#include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/PlacePatcher.h"
 #include "osgRayTrace/bridge/convert/SceneLights.h"
 #include "osgRayTrace/bridge/convert/SnapshotStamps.h"
@@ -36,6 +37,20 @@ ScenePatcher::ScenePatcher(const Scene& last, const ConversionInput& input,
       _now(now),
       _scene(std::make_shared<Scene>(last))
 {
+}
+
+/// Returns the rules by which a SceneBuilder adds to the scene. subtree is the unwatched subtree of
+/// what it adds, or kNoSubtree.
+BuildRules ScenePatcher::patchRules(uint32_t subtree) const
+{
+    BuildRules rules;
+    rules.linear = !_scene->displayReferred;
+    rules.setsColor = _convertedGraph.setsColor;
+    rules.comparable = true;
+    rules.patches = true;
+    rules.subtree = subtree;
+    rules.now = _now;
+    return rules;
 }
 
 osg::NodePath ScenePatcher::fromRoot(const osg::NodePath& path) const
@@ -82,6 +97,7 @@ std::shared_ptr<Scene> ScenePatcher::patch(const GraphChanges& changes)
     if (!recut(changes.clips)) return nullptr;
     for (const ChangedSubtree& one : changes.subtrees)
         if (!redo(one)) return nullptr;
+    if (!encloseStill(changes.moved)) return nullptr;
     for (const uint32_t effects : _goneEffects)
         if (isLastOf(effects))
         {
@@ -111,6 +127,35 @@ bool ScenePatcher::moveAndDeform(const GraphChanges& changes)
     recordPlaces(changes.moved);
     _changed |= places.changed();
     _leftStatic |= places.leftStatic();
+    return true;
+}
+
+/// Returns false if something has left what was known to enclose the scene, which has a proxy then,
+/// or if nothing is left outside of a proxy. Lights and the shape of what encloses the scene are
+/// not looked at again: see mayEnclose.
+bool ScenePatcher::encloseStill(const std::vector<MovedUse>& moved)
+{
+    std::vector<Enclosure>& enclosures = _convertedGraph.subtrees.enclosures;
+    enclosures.erase(std::remove_if(enclosures.begin(), enclosures.end(),
+                                    [](const Enclosure& one) // which the graph no longer has
+                                    { return one.geometry->referenceCount() == 1; }),
+                     enclosures.end());
+    const Vec3d& origin = _scene->origin;
+    const osg::Matrixd engineFromWorld = osg::Matrixd::translate(-origin.x, -origin.y, -origin.z);
+    for (const MovedUse& use : moved)
+        if (Enclosure* enclosure = _convertedGraph.subtrees.enclosure(*use.geometry))
+        {
+            enclosure->engineFromLocal = use.worldFromLocal * engineFromWorld;
+            enclosure->moved = true;
+        }
+    for (Enclosure& enclosure : enclosures)
+    {
+        const bool other = std::exchange(enclosure.moved, false);
+        const Stamp since = other || !enclosure.encloses ? 0 : _now;
+        if (mayEnclose(*_scene, enclosure.bounds, enclosure.engineFromLocal, since) !=
+            enclosure.encloses)
+            return refuse(ConversionCause::Enclosure, *enclosure.geometry, 0);
+    }
     return true;
 }
 

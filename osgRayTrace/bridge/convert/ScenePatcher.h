@@ -5,6 +5,7 @@
 #include "osgRayTrace/bridge/appearance/materials/MaterialConverter.h"
 #include "osgRayTrace/bridge/changes/GraphChanges.h"
 #include "osgRayTrace/bridge/convert/ConversionState.h"
+#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 
 #include <map>
 #include <memory>
@@ -76,11 +77,13 @@ private:
     ConversionCause removeUse(TracedGeometry& traced, uint32_t use);
     bool isLastOf(uint32_t effects) const;
     bool add(const GraphSplice& splice);
+    BuildRules patchRules(uint32_t subtree) const;
     ConversionCause stateCause(const CollectedGraph& graph,
                                const CollectedGeometry& geometry) const;
     ConversionCause addGeometry(const CollectedGraph& graph, const CollectedGeometry& geometry,
                                 const GraphSplice& splice);
     bool moveAndDeform(const GraphChanges& changes);
+    bool encloseStill(const std::vector<MovedUse>& moved);
     bool recut(const std::vector<PlacedClip>& clips);
     bool recut(ClippedUse& use);
     bool changeStates(const std::vector<StateChange>& uses);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/common/ClipPlanes.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/graph/GraphCollector.h"
 
@@ -209,13 +208,8 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
         if (cause != ConversionCause::None) return cause;
     }
     ConversionReport report;
-    BuildRules rules;
-    rules.linear = !_scene->displayReferred;
-    rules.setsColor = _convertedGraph.setsColor;
-    rules.comparable = true;
-    rules.patches = true;
-    rules.now = _now;
-    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
+    SceneBuilder builder(_input, graph, patchRules(kNoSubtree), _caches, _convertedGraph, *_scene,
+                         report);
     std::vector<ChangedUse> uses;
     for (const ChangedUse& use : splice.uses)
         if (use.geometry == geometry.geometry) uses.push_back(use);
@@ -239,12 +233,14 @@ ConversionCause ScenePatcher::addGeometry(const CollectedGraph& graph,
     return report.remarks() == 0 ? ConversionCause::None : ConversionCause::Reported;
 }
 
-/// Drops removed geometries from the cache, but keeps those that came back in another place.
+/// Drops removed geometries from the caches, but keeps those that came back in another place.
 void ScenePatcher::dropRemoved()
 {
     for (const osg::ref_ptr<const osg::Geometry>& geometry : _removed)
         if (_convertedGraph.index.geometries.count(geometry) == 0)
             _caches.geometries.drop(geometry);
+    _caches.vertices.dropUnshared();
+    _caches.triangles.dropUnshared();
 }
 
 } // namespace osgRayTrace::engine

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 #include "osgRayTrace/bridge/convert/GraphLengths.h"
-#include "osgRayTrace/bridge/convert/SceneBuilder.h"
 #include "osgRayTrace/bridge/convert/ScenePatcher.h"
 #include "osgRayTrace/bridge/convert/SubtreeComparison.h"
 #include "osgRayTrace/bridge/graph/DrawHint.h"
@@ -32,13 +31,19 @@ bool isLeftAbove(const osg::NodePath& path, const std::vector<unsigned int>& vie
     return std::any_of(path.begin(), path.end() - 1, mayBeLeft);
 }
 
-/// Drops what is known to have no proxy, as it would enclose the scene.
-void dropKnownEnclosures(CollectedGraph& graph, const ConvertedSubtrees& subtrees)
+/// Drops what is known to have no proxy, as it would enclose the scene, and records where it is:
+/// see ScenePatcher::encloseStill().
+void dropKnownEnclosures(CollectedGraph& graph, ConvertedSubtrees& subtrees)
 {
     const auto encloses = [&subtrees](const CollectedGeometry& geometry)
     {
-        return geometry.isProxy() && geometry.uses.size() == 1 &&
-               subtrees.isEnclosure(*geometry.geometry);
+        if (!geometry.isProxy() || geometry.uses.size() != 1) return false;
+        Enclosure* enclosure = subtrees.enclosure(*geometry.geometry);
+        if (!enclosure) return false;
+        enclosure->engineFromLocal = geometry.uses[0].engineFromLocal;
+        enclosure->bounds = *geometry.bounds;
+        enclosure->moved = true;
+        return enclosure->encloses;
     };
     graph.geometries.erase(
         std::remove_if(graph.geometries.begin(), graph.geometries.end(), encloses),
@@ -91,7 +96,8 @@ bool ScenePatcher::redo(const ChangedSubtree& changed)
     for (CollectedGeometry& geometry : graph.geometries)
     {
         geometry.bounds = &_caches.geometries.bounds(*geometry.geometry);
-        if (!_convertedGraph.index.geometries.count(geometry.geometry))
+        if (geometry.bounds->count < kPlacedVertices &&
+            !_convertedGraph.index.geometries.count(geometry.geometry))
             more += geometry.bounds->count;
     }
     if (more > kSmallStatic && more >= _caches.staticVertices)
@@ -202,15 +208,9 @@ ConversionCause ScenePatcher::addUses(const CollectedGraph& graph,
     for (const GeometryUse& use : geometry.uses)
         if (use.proxy && mayEnclose(*_scene, *geometry.bounds, use.engineFromLocal))
             return ConversionCause::CullTraversal;
-    BuildRules rules;
-    rules.linear = !_scene->displayReferred;
-    rules.setsColor = _convertedGraph.setsColor;
-    rules.comparable = true;
-    rules.patches = true;
-    rules.subtree = subtree;
-    rules.now = _now;
     ConversionReport report;
-    SceneBuilder builder(_input, graph, rules, _caches, _convertedGraph, *_scene, report);
+    SceneBuilder builder(_input, graph, patchRules(subtree), _caches, _convertedGraph, *_scene,
+                         report);
     const auto known = _convertedGraph.index.geometries.find(geometry.geometry);
     const bool isElsewhere = known != _convertedGraph.index.geometries.end() &&
                              !_convertedGraph.index.isLeft(*geometry.geometry);

@@ -83,6 +83,17 @@ struct CollectedGeometry
     }
 };
 
+/// Names a use whose proxy is left out because it encloses the scene, or the largest proxy that may
+/// come to enclose it.
+struct Enclosure
+{
+    osg::ref_ptr<const osg::Geometry> geometry;
+    osg::Matrixd engineFromLocal;
+    VertexBounds bounds;
+    bool encloses = true; ///< false: it has a proxy, as something is outside
+    bool moved = false;   ///< in the patch that is being made
+};
+
 struct CollectedLight
 {
     osg::ref_ptr<const osg::LightSource> source;
@@ -149,8 +160,7 @@ struct CollectedGraph
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
-    /// Geometries whose proxies would enclose the scene, and have been dropped.
-    std::vector<osg::ref_ptr<const osg::Geometry>> enclosures;
+    std::vector<Enclosure> enclosures;        ///< what has been dropped of geometries
     bool hasProxies = false;                  ///< some use is a proxy
     RasterizedParts rasterized;               ///< parts for OSG, if ConversionInput::rasterizesRest
     NodeTree paths;                           ///< paths to pick, if ConversionInput::picks

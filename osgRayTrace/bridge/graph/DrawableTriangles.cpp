@@ -4,6 +4,7 @@
 #include "osgRayTrace/bridge/graph/DrawableTriangles.h"
 
 #include "osgRayTrace/base/MemoryHash.h"
+#include "osgRayTrace/bridge/common/Unshared.h"
 #include "osgRayTrace/bridge/geometry/BufferHashes.h"
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 #include "osgRayTrace/scene/Mesh.h"
@@ -212,6 +213,14 @@ void DrawableTriangles::end()
     forget(_copies);
     forget(_chosen);
     isoSurfaces.end();
+}
+
+void DrawableTriangles::dropUnshared()
+{
+    const auto node = [](const Copy& copy) { return copy.node.get(); };
+    eraseUnshared(_copies, node);
+    eraseUnshared(_chosen, node);
+    isoSurfaces.dropUnshared();
 }
 
 uint64_t DrawableTriangles::hashOf(const osg::Drawable& drawable)

@@ -42,6 +42,10 @@ public:
     /// Forgets the drawables that were not asked for.
     void end();
 
+    /// Forgets the drawables that nobody else holds. As end() does, it invalidates pointers to what
+    /// they have become.
+    void dropUnshared();
+
     /// Returns a hash of the triangles, for drawables that change without a sign; 0: the drawable
     /// tells none.
     static uint64_t hashOf(const osg::Drawable& drawable);

@@ -6,6 +6,7 @@
 #include "osgRayTrace/base/MemoryHash.h"
 #include "osgRayTrace/bridge/appearance/textures/VolumeImages.h"
 #include "osgRayTrace/bridge/common/FlatMatrix.h"
+#include "osgRayTrace/bridge/common/Unshared.h"
 #include "osgRayTrace/bridge/geometry/MatrixMaps.h"
 #include "osgRayTrace/bridge/graph/VolumeTiles.h"
 #include "osgRayTrace/media/IsoSurface.h"
@@ -170,6 +171,11 @@ void IsoSurfaces::end()
 {
     for (auto entry = _entries.begin(); entry != _entries.end();)
         entry = entry->second.used == _round ? std::next(entry) : _entries.erase(entry);
+}
+
+void IsoSurfaces::dropUnshared()
+{
+    eraseUnshared(_entries, [](const Entry& entry) { return entry.tile.get(); });
 }
 
 } // namespace osgRayTrace::engine

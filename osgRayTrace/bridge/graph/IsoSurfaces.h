@@ -38,6 +38,9 @@ public:
     /// Forgets the tiles that were not asked for.
     void end();
 
+    /// Forgets the tiles that nobody else holds.
+    void dropUnshared();
+
 private:
     struct Entry
     {

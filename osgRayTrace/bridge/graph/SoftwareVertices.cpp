@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/graph/SoftwareVertices.h"
 
 #include "osgRayTrace/bridge/common/LibraryName.h"
+#include "osgRayTrace/bridge/common/Unshared.h"
 
 #include <osg/Transform>
 #include <osgAnimation/BoneMapVisitor>
@@ -269,6 +270,11 @@ void SoftwareVertices::end()
 {
     for (auto copy = _copies.begin(); copy != _copies.end();)
         copy = copy->second.used == _round ? std::next(copy) : _copies.erase(copy);
+}
+
+void SoftwareVertices::dropUnshared()
+{
+    eraseUnshared(_copies, [](const Copy& copy) { return copy.original.get(); });
 }
 
 } // namespace osgRayTrace::engine

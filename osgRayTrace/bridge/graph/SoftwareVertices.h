@@ -29,6 +29,9 @@ public:
     /// Forgets the copies that were not asked for.
     void end();
 
+    /// Forgets the copies of geometries that nobody else holds.
+    void dropUnshared();
+
     /// Returns whether the application leaves the geometry's vertices to a shader program.
     static bool isPosedByProgram(const osg::Geometry& geometry);
 
