@@ -16,7 +16,6 @@ constexpr std::int64_t kMagic = 0x56444220;
 constexpr std::uint32_t kOldestVersion = 222, kNewestVersion = 225;
 constexpr std::size_t kUuidLength = 36;
 constexpr char kNameSuffix = '\x1e'; ///< stands before the number of grids of one name
-const std::string kHalfSuffix = "_HalfFloat";
 
 /// Goes past metadata. Returns the text of the entry "class", in lower case.
 std::string readMetadata(VdbBytes& bytes)
@@ -129,9 +128,9 @@ std::vector<VdbEntry> readEntries(const std::string& file)
         entry.uniqueName = bytes.text();
         entry.name = entry.uniqueName.substr(0, entry.uniqueName.find(kNameSuffix));
         entry.type = bytes.text();
-        const std::size_t suffix = entry.type.rfind(kHalfSuffix);
-        entry.half =
-            suffix != std::string::npos && suffix + kHalfSuffix.size() == entry.type.size();
+        const std::string halfSuffix = "_HalfFloat";
+        const std::size_t suffix = entry.type.rfind(halfSuffix);
+        entry.half = suffix != std::string::npos && suffix + halfSuffix.size() == entry.type.size();
         if (entry.half) entry.type.resize(suffix);
         entry.parent = bytes.text();
         entry.place = bytes.number<std::uint64_t>();

@@ -5,8 +5,8 @@
 #include <osgRayTrace/Medium>
 #include <osgRayTrace/PhysicalMaterial>
 
-#include <osgVolume/MultipassTechnique>
 #include <osgVolume/Property>
+#include <osgVolume/RayTracedTechnique>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,9 @@ constexpr float kAlbedo = 0.95f, kAnisotropy = 0.3f;
 /// A value below 0 is nothing; it stays below 0 by at most this much of the largest value.
 constexpr double kMostBelow = 1e12;
 
-/// OSG shows opacities of cells. Below this one a tile would not be seen in it at all.
-constexpr double kLeastOpacity = 1e-3;
+/// What OSG shows are opacities of samples, so far apart in a box of unit length. Below the least
+/// one a tile would not be seen at all.
+constexpr double kSampleStep = 1.0 / 256.0, kLeastOpacity = 1e-3;
 
 /// Returns the lengths of a cell's sides.
 osg::Vec3d cellSides(const VdbDense& dense, const osg::Matrixd& worldFromIndex)
@@ -73,9 +74,12 @@ void setSmoke(osgVolume::VolumeTile& tile, osgVolume::ImageLayer& layer, const o
     const double ofLargest =
         largest * (extinction ? *extinction : kDepthAlongLongestSide / (mean * longest));
 
-    const double cellDepth = ofLargest * std::cbrt(cell.x() * cell.y() * cell.z());
-    const double opacity = std::max(-std::expm1(-cellDepth), kLeastOpacity);
+    // OSG takes samples at steps of the box's own lengths, and their opacities as they are.
+    const double step =
+        std::cbrt(cell.x() * cell.y() * cell.z() * image.s() * image.t() * image.r()) * kSampleStep;
+    const double opacity = std::max(-std::expm1(-ofLargest * step), kLeastOpacity);
     layer.addProperty(new osgVolume::AlphaFuncProperty(0.0f));
+    layer.addProperty(new osgVolume::SampleDensityProperty(static_cast<float>(kSampleStep)));
     layer.addProperty(new osgVolume::TransparencyProperty(static_cast<float>(opacity)));
 
     // Rays multiply the coefficients by values and by this opacity, which is thus to be taken out.
@@ -112,7 +116,7 @@ osg::ref_ptr<osgVolume::VolumeTile> volumeTile(const VdbDense& dense, const VdbG
         setSmoke(*tile, *layer, cellSides(dense, grid.worldFromIndex), extinction);
     tile->setLayer(layer.get());
     tile->setLocator(layer->getLocator());
-    tile->setVolumeTechnique(new osgVolume::MultipassTechnique);
+    tile->setVolumeTechnique(new osgVolume::RayTracedTechnique);
     return tile;
 }
 

@@ -10,7 +10,7 @@
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Notify>
 #include <osgDB/ReadFile>
-#include <osgVolume/MultipassTechnique>
+#include <osgVolume/RayTracedTechnique>
 
 #include <cstring>
 #include <functional>
@@ -143,7 +143,7 @@ TEST_CASE("vdb: smoke has the depth that is asked for", "[vdb]")
     // The densest voxel has the layer's texel scale as its density.
     const auto chosen = tileOf(file, "extinction=2.5");
     CHECK(coefficients(*chosen) == Approx(2.5 * layerOf(*chosen).getTexelScale()[3]).epsilon(1e-4));
-    CHECK(dynamic_cast<osgVolume::MultipassTechnique*>(chosen->getVolumeTechnique()));
+    CHECK(dynamic_cast<osgVolume::RayTracedTechnique*>(chosen->getVolumeTechnique()));
 }
 
 TEST_CASE("vdb: grids are chosen by name, and others are named", "[vdb]")
@@ -167,9 +167,12 @@ TEST_CASE("vdb: grids are chosen by name, and others are named", "[vdb]")
     };
     const osg::ref_ptr<osg::NotifyHandler> before = osg::getNotifyHandler();
     const osg::ref_ptr<Listener> listener = new Listener;
+    const osg::NotifySeverity level = osg::getNotifyLevel();
+    osg::setNotifyLevel(osg::NOTICE);
     osg::setNotifyHandler(listener);
     tileOf(file);
     osg::setNotifyHandler(before);
+    osg::setNotifyLevel(level);
     CHECK_THAT(listener->text,
                Catch::Matchers::Contains("not read: vel (Tree_vec3s_5_4_3), flame"));
 }
