@@ -62,21 +62,30 @@ std::int64_t cellsOf(std::int64_t voxels, std::int64_t factor)
     return (voxels + factor - 1) / factor;
 }
 
+bool fits(const Surveyor& bounds, std::int64_t factor, std::uint64_t mostCells)
+{
+    double cells = 1.0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const std::int64_t side = cellsOf(bounds.high[k] - bounds.low[k], factor);
+        if (side > kMostCellSide) return false;
+        cells *= static_cast<double>(side);
+    }
+    return cells <= static_cast<double>(mostCells);
+}
+
 /// Returns the least number of voxels along a side of a cell with which the cells are not too many.
 std::int64_t factorFor(const Surveyor& bounds, std::uint64_t mostCells)
 {
-    for (std::int64_t factor = 1;; ++factor)
+    std::int64_t tooFew = 0, enough = 1;
+    for (; !fits(bounds, enough, mostCells); enough *= 2)
+        tooFew = enough;
+    while (enough - tooFew > 1)
     {
-        double cells = 1.0;
-        bool fits = true;
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const std::int64_t side = cellsOf(bounds.high[k] - bounds.low[k], factor);
-            fits = fits && side <= kMostCellSide;
-            cells *= static_cast<double>(side);
-        }
-        if (fits && cells <= static_cast<double>(mostCells)) return factor;
+        const std::int64_t middle = (tooFew + enough) / 2;
+        (fits(bounds, middle, mostCells) ? enough : tooFew) = middle;
     }
+    return enough;
 }
 
 /// Puts the values of tiles and leaves into an image.

@@ -262,6 +262,16 @@ TEST_CASE("vdb: what a file says that cannot be is named", "[vdb]")
     CHECK_THAT(changed(tree + 16, 8), Contains("place where none can be"));
     CHECK_THAT(changed(tree + 28 + 8192, 0x9), Contains("unknown kind"));
 
+    if (kHasBlosc) // an array whose length is not the one that its node says
+    {
+        std::string level = vdbFile("level_set");
+        const std::size_t map = level.find("UniformScaleMap") + std::strlen("UniformScaleMap");
+        const std::size_t length = map + 5 * 3 * 8 + 28 + 8192 + 1;
+        put(level, length, 0xfffffff0u);
+        put(level, length + 4, 0xffffffffu);
+        CHECK_THAT(messageOf(level), Contains("wrong length"));
+    }
+
     CHECK_THAT(messageOf(sound, "maxVoxels=0"), Contains("maxVoxels"));
     CHECK_THAT(messageOf(sound, "maxVoxels=many"), Contains("maxVoxels"));
     CHECK_THAT(messageOf(sound, "extinction=-1"), Contains("extinction"));

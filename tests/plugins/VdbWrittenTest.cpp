@@ -181,6 +181,7 @@ TEST_CASE("vdb: larger grids are read as means", "[vdb]")
     far.content = VdbContent::Far;
     const auto tile = tileOf(writeVdb(far).bytes);
     CHECK(layerOf(*tile).getImage()->s() == (100001 + 6) / 7); // at most 16,384 along a side
+    CHECK(layerOf(*tileOf(writeVdb(far).bytes, "maxVoxels=1")).getImage()->s() == 1);
 }
 
 TEST_CASE("vdb: values that are not finite are the background", "[vdb]")
