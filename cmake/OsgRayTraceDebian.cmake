@@ -64,7 +64,8 @@ This package has the headers, and files for CMake and pkg-config.")
 osgraytrace_package(tools osgraytrace graphics "osgRayTrace;osgRayTraceOffscreen"
     "Ray tracer for OpenSceneGraph models" "${libraryText}
 This package has the programs, and plugins by which any OpenSceneGraph
-program ray traces (osgviewer cow.osgt.raytrace) and reads glTF, EXR and HDR.")
+program ray traces (osgviewer cow.osgt.raytrace) and reads glTF, OpenVDB, EXR
+and HDR.")
 osgraytrace_package(docs osgraytrace-doc doc ""
     "Ray tracing node kit for OpenSceneGraph (documents)" "${libraryText}
 This package has the documents, examples and scenes.")

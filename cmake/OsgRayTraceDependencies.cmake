@@ -76,3 +76,4 @@ else()
 endif()
 
 include(OsgRayTraceGltfLibraries)
+include(OsgRayTraceVdbLibraries)

@@ -6,7 +6,7 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 install_packages
-build release osgraytrace osgraytraceviewer osgdb_exr osgdb_glb osgdb_hdr osgdb_raytrace osgdb_serializers_osgraytrace
+build release osgraytrace osgraytraceviewer osgdb_exr osgdb_glb osgdb_hdr osgdb_raytrace osgdb_serializers_osgraytrace osgdb_vdb
 
 bin=$ROOT/build/release/bin
 out=$ROOT/out

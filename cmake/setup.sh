@@ -4,13 +4,14 @@
 
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv, the examples),
-# "osgraytracebench report" uses gnuplot, and videos are made by ffmpeg. The tests of form use clang-format of this version
-# and doxygen.
+# The names are Debian 12's. The tests use xvfb, xauth and openscenegraph (osgviewer, osgconv, the examples), and
+# write files by OpenVDB, whose headers need boost. "osgraytracebench report" uses gnuplot, and videos are made by
+# ffmpeg. The tests of form use clang-format of this version and doxygen.
 PACKAGES=(build-essential cmake ninja-build
           libopenscenegraph-dev libembree-dev libtbb-dev libglm-dev libopenexr-dev libpng-dev libjpeg-dev
           libgl-dev libegl-dev libosmesa6-dev libgl1-mesa-dri
           libdraco-dev libmeshoptimizer-dev libwebp-dev libopenmpi-dev openmpi-bin libzmq3-dev
+          zlib1g-dev libblosc-dev libopenvdb-dev libboost-dev
           pybind11-dev python3-dev python3-numpy
           libcli11-dev nlohmann-json3-dev catch2 openscenegraph xvfb xauth
           gnuplot-nox ffmpeg clang-format-14 doxygen graphviz)

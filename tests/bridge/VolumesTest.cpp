@@ -12,6 +12,8 @@
 #include <osgRayTrace/Medium>
 #include <osgRayTrace/PhysicalMaterial>
 
+#include <osg/LightSource>
+
 #include <limits>
 
 using namespace osgRayTrace;
@@ -86,6 +88,26 @@ TEST_CASE("volume tiles: the interior of a material in the tile's state is a den
     CHECK(result.scene->volumes[0].medium.sigmaS == Vec3(1.0f, 2.0f, 3.0f));
     CHECK_FALSE(result.scene->displayReferred);
     CHECK(sceneTraits(*result.scene).scattering);
+}
+
+TEST_CASE("volume tiles: smoke without surfaces is lit by all lights", "[bridge][volumes]")
+{
+    const osg::ref_ptr<osgVolume::VolumeTile> tile = ballTile();
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(tile);
+    root->addChild(new osg::LightSource);
+    // A tile that glows has no use for lights.
+    CHECK(convertGraph(root).scene->lights.empty());
+    const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    const osg::ref_ptr<osgRayTrace::Medium> medium = new osgRayTrace::Medium;
+    medium->setScattering({1.0f, 2.0f, 3.0f});
+    material->setInterior(medium);
+    tile->getOrCreateStateSet()->setAttribute(material);
+    CHECK(convertGraph(root).scene->lights.size() == 1);
+    // A surface that has not enabled the light decides for the smoke, too.
+    root->addChild(triangleGeometry());
+    root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
+    CHECK(convertGraph(root).scene->lights.empty());
 }
 
 TEST_CASE("volume tiles: what cannot be traced is left to OSG by name", "[bridge][volumes]")

@@ -9,6 +9,10 @@
 #include "osgRayTrace/bridge/appearance/materials/MediumConversion.h"
 #include "osgRayTrace/bridge/common/StateStack.h"
 
+#include <osgRayTrace/Medium>
+#include <osgRayTrace/MediumVolume>
+#include <osgRayTrace/PhysicalMaterial>
+
 #include <osg/LightSource>
 
 #include <algorithm>
@@ -83,11 +87,27 @@ void countReplaced(const NumberedLight& light, ConversionReport& report)
     report.setPlace({});
 }
 
+/// Returns whether the scene has media that scatter and no surface, whose state could enable
+/// lights.
+bool hasMediaAlone(const Scene& scene, const LightSources& sources)
+{
+    const auto scatters = [](const osgRayTrace::Medium* medium)
+    { return medium && medium->getScattering() != osg::Vec3(); };
+    const bool inAir = std::any_of(sources.volumes.begin(), sources.volumes.end(),
+                                   [&](const CollectedVolume& source)
+                                   { return scatters(source.volume->getMedium()); });
+    const bool inTiles =
+        std::any_of(sources.tiles.begin(), sources.tiles.end(),
+                    [&](const CollectedTile& source)
+                    { return source.material && scatters(source.material->getInterior()); });
+    return scene.instances.empty() && (inAir || inTiles);
+}
+
 /// Adds lights as OpenGL keeps them: by number, the last one set stays, and a light that no surface
-/// has enabled does nothing. The viewer's light is set before those of the graph, and behind them
-/// come the lights that OpenGL does not get, which all stay.
-void addNumbered(Scene& scene, const ConversionInput& input,
-                 const std::vector<CollectedLight>& sources, ConversionReport& report)
+/// has enabled does nothing, unless there are media alone. The viewer's light is set before those
+/// of the graph, and behind them come the lights that OpenGL does not get, which all stay.
+void addNumbered(Scene& scene, const ConversionInput& input, const LightSources& sources,
+                 ConversionReport& report)
 {
     std::map<int, NumberedLight> lights;
     std::vector<Light> tracedLights;
@@ -128,7 +148,7 @@ void addNumbered(Scene& scene, const ConversionInput& input,
         for (auto& [number, numbered] : lights)
             numbered.light.castsShadows = !input.viewLightInEyeSpace || input.headlightShadows;
     }
-    for (const CollectedLight& light : sources)
+    for (const CollectedLight& light : sources.lights)
         if (light.source->getLight())
             add(*light.source->getLight(), light.engineFromLocal, light.eyeSpace, light.path, true);
 
@@ -137,9 +157,10 @@ void addNumbered(Scene& scene, const ConversionInput& input,
                     "there is no light of this name");
 
     const Material enabled = lightsOfAll(scene.materials);
+    const bool mediaAlone = hasMediaAlone(scene, sources);
     for (auto& [number, numbered] : lights)
     {
-        if (!isLightEnabled(enabled, numbered.light.number)) continue;
+        if (!mediaAlone && !isLightEnabled(enabled, numbered.light.number)) continue;
         scene.lights.push_back(std::move(numbered.light));
         if (!numbered.ofGraph) report.count(input.viewLightInEyeSpace ? kHeadlight : kSkyLight);
     }
@@ -210,7 +231,7 @@ void setLights(Scene& scene, const ConversionInput& input, const LightSources& s
 {
     scene.lights.clear();
     addShining(scene, caches.areaLights);
-    addNumbered(scene, input, sources.lights, report);
+    addNumbered(scene, input, sources, report);
     addEnvironment(scene, sources.environments, caches.environment, report);
     setAtmosphere(scene, sources.volumes, report);
     setVolumes(scene, sources.tiles, caches.volumes, report);
