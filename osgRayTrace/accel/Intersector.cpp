@@ -53,6 +53,40 @@ LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>
     return refused & active;
 }
 
+/// The least number of coherent shadow rays whose packet is filled up with copies of one of them.
+/// Embree traces the rays of a packet one by one where few of them meet a subtree, as is soon so in
+/// a packet with idle lanes: in the Cornell box such packets take 2.6 times as long as filled ones.
+constexpr int kMostlyFull = 8;
+
+/// Sets filled to the rays of a block, with copies of ray number from in the lanes that are not
+/// valid.
+OSGRAYTRACE_KERNEL
+void fillIdle(const RayBlock& ray, const Lanes<int>& valid, int from, RayBlock& filled)
+{
+    const PlainVec3 origin = plainOrigin(ray, from), direction = plainDirection(ray, from);
+    const float tNear = ray.tNear[from], tFar = ray.tFar[from];
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const auto own = static_cast<uint32_t>(valid[i]);
+        setRay(filled, i, select(own, plainOrigin(ray, i), origin),
+               select(own, plainDirection(ray, i), direction), select(own, ray.tNear[i], tNear),
+               select(own, ray.tFar[i], tFar));
+    }
+}
+
+alignas(64) const Lanes<int> kAllValid = {
+    {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}};
+
+/// Sets tFar of the lanes to that of the rays of a block that was filled up.
+OSGRAYTRACE_KERNEL
+void takeEnds(const RayBlock& filled, const Lanes<int>& valid, RayBlock& ray)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        ray.tFar[i] = select(static_cast<uint32_t>(valid[i]), filled.tFar[i], ray.tFar[i]);
+}
+
 bool areFew(LaneMask rays)
 {
     for (int i = 0; i < kFewRays; ++i)
@@ -211,7 +245,7 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
     }
 }
 
-LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
+LaneMask Intersector::occlusion(RayBlock& block, LaneMask active, Coherence coherence) const
 {
     OSGRAYTRACE_ASSERT(active <= kAllLanes);
     const auto scene = static_cast<RTCScene>(_scene);
@@ -223,7 +257,16 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active) const
     QueryArguments query(false, _filter, kShadowRays);
     // Four shadow rays go different ways as soon as two do: on CPUs of that width shadow rays are
     // traced one by one, like other incoherent rays.
-    if (_nativeWidth == 16 && !areFew(active))
+    const LaneMask traced = active & ~refused;
+    const bool fills = coherence == Coherence::Coherent && traced != kAllLanes;
+    if (_nativeWidth == 16 && fills && countLanes(traced) >= kMostlyFull)
+    {
+        RayBlock filled;
+        fillIdle(block, valid, firstLane(traced), filled);
+        query.occluded(kAllValid.v, scene, reinterpret_cast<RTCRay16*>(&filled));
+        takeEnds(filled, valid, block);
+    }
+    else if (_nativeWidth == 16 && !areFew(active))
         query.occluded(valid.v, scene, reinterpret_cast<RTCRay16*>(&block));
     else if (_nativeWidth == 8 && !areFew(active))
         occludePackets<8>(query, scene, valid, block);

@@ -14,7 +14,8 @@ namespace osgRayTrace::engine
 
 enum class Coherence
 {
-    Coherent,   ///< camera rays, whose neighbours take the same way through the BVH
+    Coherent,   ///< camera rays, whose neighbours take the same way through the BVH, and shadow
+                ///< rays from points beside each other to one light
     Incoherent, ///< bounces
 };
 
@@ -46,7 +47,8 @@ public:
 
     /// Sets tFar to -infinity in the active lanes that are occluded. Returns the lanes whose ray
     /// was refused; refused rays count as occluded.
-    LaneMask occlusion(RayBlock& block, LaneMask active) const;
+    LaneMask occlusion(RayBlock& block, LaneMask active,
+                       Coherence coherence = Coherence::Incoherent) const;
 
     std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
                                   HitRule rule = {}) const;

@@ -167,18 +167,22 @@ Comparison compareHits(const Intersector& intersector, const TestRay (&rays)[kLa
     return result;
 }
 
-int differentOcclusion(const Intersector& intersector, const TestRay (&rays)[kLanes], LaneMask mask)
+/// Counts lanes whose occlusion is not that of the same ray alone, and inactive lanes whose ray has
+/// changed.
+int differentOcclusion(const Intersector& intersector, const TestRay (&rays)[kLanes], LaneMask mask,
+                       Coherence coherence)
 {
     RayBlock block;
     for (int i = 0; i < kLanes; ++i)
         setRay(block, i, rays[i]);
-    int different = intersector.occlusion(block, mask) != 0;
+    int different = intersector.occlusion(block, mask, coherence) != 0;
     for (int i = 0; i < kLanes; ++i)
     {
         const TestRay& ray = rays[i];
         const bool expected = ((mask >> i) & 1u) &&
                               intersector.occluded(ray.origin, ray.direction, ray.tNear, ray.tFar);
         different += (block.tFar[i] == -kInfinity) != expected;
+        different += block.originX[i] != ray.origin.x || block.directionX[i] != ray.direction.x;
     }
     return different;
 }
@@ -209,13 +213,14 @@ TEST_CASE("intersector: rays that are not finite, zero or huge are refused, alon
             CHECK(block.geometry[5] == kInvalid);
             CHECK(block.geometry[4] == 0);
             CHECK(block.ray.tFar[6] == Approx(4.0));
+
+            RayBlock shadow;
+            for (int i = 0; i < kLanes; ++i)
+                setRay(shadow, i, i == 5 ? bad : TestRay{Vec3(9, 9, 9), Vec3(0, 0, 1)});
+            CHECK(intersector.occlusion(shadow, kAllLanes, coherence) == 1u << 5);
+            CHECK(shadow.tFar[5] == -kInfinity);
+            CHECK(shadow.tFar[4] == kInfinity);
         }
-        RayBlock shadow;
-        for (int i = 0; i < kLanes; ++i)
-            setRay(shadow, i, i == 5 ? bad : TestRay{Vec3(9, 9, 9), Vec3(0, 0, 1)});
-        CHECK(intersector.occlusion(shadow, kAllLanes) == 1u << 5);
-        CHECK(shadow.tFar[5] == -kInfinity);
-        CHECK(shadow.tFar[4] == kInfinity);
     }
 }
 
@@ -228,6 +233,7 @@ TEST_CASE("intersector: a whole block of bad rays", "[accel]")
         setRay(block.ray, i, bad[static_cast<std::size_t>(i)]);
     CHECK(traced->intersector().closestHits(block, kAllLanes, Coherence::Coherent) == kAllLanes);
     CHECK(traced->intersector().occlusion(block.ray, kAllLanes) == kAllLanes);
+    CHECK(traced->intersector().occlusion(block.ray, kAllLanes, Coherence::Coherent) == kAllLanes);
 }
 
 TEST_CASE("intersector: packets of every width and mask find what single rays find", "[accel]")
@@ -251,8 +257,8 @@ TEST_CASE("intersector: packets of every width and mask find what single rays fi
                 const Comparison comparison = compareHits(intersector, rays, mask, coherence);
                 different += comparison.different;
                 hits += comparison.hits;
+                different += differentOcclusion(intersector, rays, mask, coherence);
             }
-            different += differentOcclusion(intersector, rays, mask);
         }
         CAPTURE(width);
         CHECK(different == 0);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 
-#include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/integrators/shared/QuadLane.h"
 #include "osgRayTrace/shading/SoftLight.h"
@@ -189,11 +188,11 @@ static LaneMask unoccluded(const RayBlock& shadow)
 
 /// Returns the lanes that see the light, straight or through panes.
 static LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples,
-                                    TileCounts& counts)
+                                    TileCounts& counts, Coherence coherence)
 {
     const RayBlock shadow = samples.shadow;
     samples.tinted = 0;
-    context.traced->intersector().occlusion(samples.shadow, samples.lit);
+    context.traced->intersector().occlusion(samples.shadow, samples.lit, coherence);
     counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     const LaneMask straight = unoccluded(samples.shadow) & samples.lit;
     const LaneMask blocked = samples.lit & ~straight;
@@ -201,19 +200,21 @@ static LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samp
     return straight | throughPanes(context, shadow, blocked, samples, counts);
 }
 
-LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts)
+LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
+                      Coherence coherence)
 {
     if (!context.options.shadows || !samples.lit) return samples.lit;
-    if (context.traced->traits().panes) return visibleThroughPanes(context, samples, counts);
-    context.traced->intersector().occlusion(samples.shadow, samples.lit);
+    if (context.traced->traits().panes)
+        return visibleThroughPanes(context, samples, counts, coherence);
+    context.traced->intersector().occlusion(samples.shadow, samples.lit, coherence);
     counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     return unoccluded(samples.shadow) & samples.lit;
 }
 
 LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
-                      TileCounts& counts)
+                      TileCounts& counts, Coherence coherence)
 {
-    return light.castsShadows ? visibleLanes(context, samples, counts) : samples.lit;
+    return light.castsShadows ? visibleLanes(context, samples, counts, coherence) : samples.lit;
 }
 
 } // namespace osgRayTrace::engine

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/LightLanes.h"
 #include "osgRayTrace/shading/LightTable.h"
@@ -37,11 +38,12 @@ bool deltaLane(const PassContext& context, uint32_t light, const LightReceivers&
                LightLanes& samples);
 
 /// Returns the lanes of samples.lit that see the light, and counts their shadow rays.
-LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts);
+LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
+                      Coherence coherence = Coherence::Incoherent);
 
 /// Returns the lanes that see a directional, point or spot light. No rays are traced if the light
 /// casts no shadows.
 LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,
-                      TileCounts& counts);
+                      TileCounts& counts, Coherence coherence = Coherence::Incoherent);
 
 } // namespace osgRayTrace::engine

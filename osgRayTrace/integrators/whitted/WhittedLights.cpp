@@ -95,7 +95,8 @@ namespace
 /// Takes one light sample through its stages for all blocks. draw sets block.light for the lanes of
 /// a mask.
 template <class Draw>
-void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, const Draw& draw)
+void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, Coherence coherence, float scale,
+               const Draw& draw)
 {
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
@@ -105,7 +106,7 @@ void addSample(WhittedTile& tile, ShadingBlock* blocks, int count, float scale, 
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
     {
         countRays(tile, *block, block->light.lit);
-        block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts);
+        block->light.lit = visibleLanes(tile.context, block->light, tile.result.counts, coherence);
         if (tile.context.traced->traits().media) dimSamples(tile, block->light.lit, block->light);
     }
     for (ShadingBlock* block = blocks; block != blocks + count; ++block)
@@ -123,7 +124,7 @@ void addAreaLights(WhittedTile& tile, ShadingBlock* blocks, int count)
         const float scale = lights[k].weight / static_cast<float>(grid.samples());
         for (uint32_t j = 0; j < grid.samples(); ++j)
         {
-            addSample(tile, blocks, count, scale,
+            addSample(tile, blocks, count, Coherence::Coherent, scale,
                       [&](ShadingBlock& block, LaneMask lanes)
                       {
                           FloatLanes u = block.firstU, v = block.firstV;
@@ -144,7 +145,7 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
     if (context.strata)
     {
         for (const EnvironmentStratum& stratum : *context.strata)
-            addSample(tile, blocks, count, 1.0f,
+            addSample(tile, blocks, count, Coherence::Coherent, 1.0f,
                       [&](ShadingBlock& block, LaneMask lanes) {
                           stratumLanes(stratum, 1.0f, block.surface, lanes,
                                        block.materials.transmissive, block.light);
@@ -154,7 +155,8 @@ void addEnvironment(WhittedTile& tile, ShadingBlock* blocks, int count)
     const LightGrid& grid = tile.areaGrid;
     const std::size_t behindAreaLights = tile.areaLights.size();
     for (uint32_t j = 0; j < grid.samples(); ++j)
-        addSample(tile, blocks, count, 1.0f / static_cast<float>(grid.samples()),
+        addSample(tile, blocks, count, Coherence::Incoherent,
+                  1.0f / static_cast<float>(grid.samples()),
                   [&](ShadingBlock& block, LaneMask lanes)
                   {
                       FloatLanes u, v;
@@ -182,7 +184,8 @@ void addDeltaLight(WhittedTile& tile, ShadingBlock& block, uint32_t index, float
     for (const int i : lanesIn(samples.lit & m.fixedFunction))
         if (glm::dot(m.points[i].normal, laneOf(samples.wi, i)) <= 0.0f) samples.lit &= ~(1u << i);
     if (light.castsShadows) countRays(tile, block, samples.lit);
-    const LaneMask visible = visibleLanes(context, light, samples, tile.result.counts);
+    const LaneMask visible =
+        visibleLanes(context, light, samples, tile.result.counts, Coherence::Coherent);
     if (context.traced->traits().media) dimSamples(tile, visible, samples);
     for (const int i : lanesIn(reached & m.fixedFunction))
         addFixedFunctionLight(block, samples, light, i, share,
