@@ -1,8 +1,8 @@
 # blenderScene.py - a scene of ours in Blender, rendered with Cycles; for the scripts that run there.
 # SPDX-License-Identifier: MIT
 """Arguments after "--": a JSON file with obj (the scene as OSG's osgconv writes it), size, threads,
-bounces and pictures, a list of [file, samples, seed], and what the scene's own script wants. The
-files are arrays of NumPy with linear RGB, the lowest row first. The result is printed, a line for
+bounces, sky (the picture of an environment, if there is one), pictures, a list of [file, samples,
+seed], and what the scene's own script wants. The files are arrays of NumPy with linear RGB, the lowest row first. The result is printed, a line for
 each picture: processor seconds."""
 import json
 import math
@@ -78,6 +78,23 @@ def addCamera(view):
     bpy.context.scene.camera = placed
 
 
+def lightBySky(file):
+    """The middle of the picture lies towards +y, as in an EnvironmentLight; in Cycles at +x."""
+    world = bpy.data.worlds.new("sky")
+    world.use_nodes = True
+    world.cycles.sampling_method = "MANUAL"
+    world.cycles.sample_map_resolution = 1024
+    bpy.context.scene.world = world
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    place, turn = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping")
+    picture = nodes.new("ShaderNodeTexEnvironment")
+    turn.inputs["Rotation"].default_value = (0, 0, -math.pi / 2)
+    picture.image = bpy.data.images.load(file)
+    links.new(place.outputs["Generated"], turn.inputs["Vector"])
+    links.new(turn.outputs["Vector"], picture.inputs["Vector"])
+    links.new(picture.outputs["Color"], nodes["Background"].inputs["Color"])
+
+
 def setCycles(task):
     """Path tracing without clamping, filtering or denoising."""
     scene = bpy.context.scene
@@ -92,6 +109,8 @@ def setCycles(task):
     cycles.pixel_filter_type = "BOX"
     scene.world = bpy.data.worlds.new("dark")
     scene.world.color = (0, 0, 0)
+    if "sky" in task:
+        lightBySky(task["sky"])
     scene.render.threads_mode, scene.render.threads = "FIXED", task["threads"]
     scene.render.resolution_x = scene.render.resolution_y = task["size"]
     scene.render.resolution_percentage = 100

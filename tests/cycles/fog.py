@@ -5,4 +5,6 @@ import sys
 
 import noise
 
-sys.exit(noise.compare(__doc__, "cornell_box_fog.osgt", "fogInBlender.py", {}))
+OPTIONS = noise.parseArguments(__doc__, "fog")
+TASK = {"script": "fogInBlender.py"}
+sys.exit(noise.compare(OPTIONS, noise.inData("cornell_box_fog.osgt"), TASK))

@@ -16,7 +16,7 @@ import sys
 import numpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-FEW, MANY, SEEDS = 16, 64, (1, 2, 3, 4)
+FEW, MANY, SEEDS, BOUNCES = 16, 64, (1, 2, 3, 4), 8
 
 
 def parseArguments(description, name):
@@ -25,7 +25,13 @@ def parseArguments(description, name):
     parser.add_argument("--out", default="out/" + name)
     parser.add_argument("--size", type=int, default=100)
     parser.add_argument("--reference", type=int, default=4096, help="samples of the long pictures")
-    return parser.parse_args()
+    options = parser.parse_args()
+    os.makedirs(options.out, exist_ok=True)
+    return options
+
+
+def inData(model):
+    return os.path.join(HERE, "../../data", model)
 
 
 def run(command, log, **keywords):
@@ -45,7 +51,7 @@ def libraries(options):
 def runBlender(script, task, options, name):
     file = os.path.join(options.out, name + ".json")
     with open(file, "w", encoding="utf-8") as text:
-        json.dump({"size": options.size, "threads": 1, "bounces": 8, **task}, text)
+        json.dump({"size": options.size, "threads": 1, "bounces": BOUNCES, **task}, text)
     command = ["blender", "--background", "--factory-startup", "--python-exit-code", "3"]
     log = os.path.join(options.out, name + ".log")
     run([*command, "--python", os.path.join(HERE, script), "--", file], log)
@@ -63,20 +69,23 @@ def pictures(options, renderer):
 
 def renderCycles(scene, script, task, options):
     obj = os.path.abspath(os.path.join(options.out, "scene.obj"))
-    run(["osgconv", scene, obj], obj + ".log", env=libraries(options))
+    if scene.endswith(".osgt"):
+        run(["osgconv", scene, obj], obj + ".log", env=libraries(options))
     return runBlender(
         script, {**task, "obj": obj, "pictures": pictures(options, "cycles")}, options, "cycles"
     )
 
 
-def renderOurs(scene, script, _task, options):
+def renderOurs(scene, script, task, options):
     seconds, files = [], []
     size = str(options.size)
     for file, samples, seed in pictures(options, "ours"):
         command = [os.path.join(options.build, "bin/osgraytrace"), scene, "-o", file + ".exr"]
         command += ["--size", size, size, "--passes", str(samples), "--seed", str(seed)]
         # Cycles counts where a path scatters, osgraytrace its ways from there.
-        command += ["--max-bounces", "9", "--integrator", "path", "--threads", "1"]
+        bounces = str(task.get("bounces", BOUNCES) + 1)
+        command += ["--max-bounces", bounces, "--integrator", "path", "--threads", "1"]
+        command += task.get("ours", [])
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         run(command, file + ".log", env=libraries(options))
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -102,24 +111,21 @@ def texts(values):
     return ", ".join(f"{value:.4f}" for value in values)
 
 
-def compare(description, model, script, task, parts=None):
-    """Prints the table for a model in data/ and its script in Blender, with what the script wants
-    beside the common task. parts: by name, functions of the size that return which pixels belong to
-    a part of the picture. Returns the exit code: 0 done, 77 there is no Blender; a program that fails
-    ends all with 2."""
+def compare(options, scene, task, parts=None):
+    """Prints the table for a model and its script in Blender. task: the script, what it wants beside
+    the common task, and "ours", more arguments of osgraytrace. parts: by name, functions of the size
+    that return which pixels belong to a part of the picture. Returns the exit code: 0 done, 77 there
+    is no Blender; a program that fails ends all with 2."""
     parts = parts or {}
-    options = parseArguments(description, os.path.splitext(model)[0])
     if not shutil.which("blender"):
         print("skipped: there is no Blender; Debian has it in the package blender")
         return 77
-    os.makedirs(options.out, exist_ok=True)
-    scene = os.path.join(HERE, "../../data", model)
     masks = [part(options.size) for part in parts.values()]
     names = ", ".join(["all", *parts])
     means = {}
     print(f"| renderer | relMSE: {names} | s | relMSE x s |\n| --- | --- | --- | --- |")
     for name, render in (("cycles", renderCycles), ("ours", renderOurs)):
-        seconds = render(scene, script, task, options)
+        seconds = render(scene, task["script"], task, options)
         files = [file for file, _, _ in pictures(options, name)]
         reference = load(files[0])
         many = files[1 + len(SEEDS) :]

@@ -14,6 +14,7 @@ import numpy
 from mathutils import Matrix, Vector
 
 sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import blenderScene
 import repairs
 
 FOVY_DEGREES = 40.0
@@ -105,23 +106,6 @@ def placeCamera(camera):
     bpy.context.scene.camera = placed
 
 
-def lightBySky(file):
-    """The middle of the picture lies towards +y, as in an EnvironmentLight; in Cycles at +x."""
-    world = bpy.data.worlds.new("sky")
-    world.use_nodes = True
-    world.cycles.sampling_method = "MANUAL"
-    world.cycles.sample_map_resolution = 1024
-    bpy.context.scene.world = world
-    nodes, links = world.node_tree.nodes, world.node_tree.links
-    place, turn = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping")
-    picture = nodes.new("ShaderNodeTexEnvironment")
-    turn.inputs["Rotation"].default_value = (0, 0, -math.pi / 2)
-    picture.image = bpy.data.images.load(file)
-    links.new(place.outputs["Generated"], turn.inputs["Vector"])
-    links.new(turn.outputs["Vector"], picture.inputs["Vector"])
-    links.new(picture.outputs["Color"], nodes["Background"].inputs["Color"])
-
-
 def setCycles(task):
     """Path tracing without clamping, filtering or denoising; sRGB without a film look."""
     scene = bpy.context.scene
@@ -171,7 +155,7 @@ def main():
     with open(os.path.join(folder, "camera.json"), "w", encoding="utf-8") as text:
         json.dump(camera, text)
     placeCamera(camera)
-    lightBySky(task["sky"])
+    blenderScene.lightBySky(task["sky"])
     setCycles(task)
     renderTo(os.path.join(folder, "cycles.png"))
     bpy.context.scene.render.film_transparent = True

@@ -16,5 +16,10 @@ def onBust(size):
     return head | (((x - 0.5) / 0.22) ** 2 + ((y - 0.33) / 0.1) ** 2 < 1)
 
 
-TASK = {"method": "RANDOM_WALK_FIXED_RADIUS", "radius": CYCLES_RADIUS}
-sys.exit(noise.compare(__doc__, "wax.osgt", "waxInBlender.py", TASK, {"bust": onBust}))
+OPTIONS = noise.parseArguments(__doc__, "wax")
+TASK = {
+    "script": "waxInBlender.py",
+    "method": "RANDOM_WALK_FIXED_RADIUS",
+    "radius": CYCLES_RADIUS,
+}
+sys.exit(noise.compare(OPTIONS, noise.inData("wax.osgt"), TASK, {"bust": onBust}))
