@@ -212,6 +212,7 @@ void DrawableTriangles::end()
     forget(_copies);
     forget(_chosen);
     isoSurfaces.end();
+    mediumBoxes.end();
 }
 
 uint64_t DrawableTriangles::hashOf(const osg::Drawable& drawable)
