@@ -48,6 +48,10 @@ osg::ref_ptr<osg::Group> waxBust();
 /// panes. Lengths are metres, z is up.
 osg::ref_ptr<osg::Group> hazeWindow();
 
+/// Returns a valley with a church in it, and fog that thins out with height in the light of a low
+/// sun. Lengths are metres, z is up.
+osg::ref_ptr<osg::Group> valleyFog();
+
 /// Returns a glass ball in fog, in the cone of a spot light that it gathers behind itself. Lengths
 /// are metres, z is up.
 osg::ref_ptr<osg::Group> glassBallFog();

@@ -36,6 +36,7 @@ int main(int argc, char** argv)
         {"drinks.osgt", drinks()},
         {"haze_window.osgt", hazeWindow()},
         {"glass_ball_fog.osgt", glassBallFog()},
+        {"valley_fog.osgt", valleyFog()},
         {"grids.osgt", grids()},
         {"smoke.osgb", smoke()},
         {"wax.osgt", waxBust()},

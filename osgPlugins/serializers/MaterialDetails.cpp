@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "MaterialDetails.h"
 
+#include "TaggedWords.h"
+
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/Notify>
@@ -9,10 +11,6 @@
 #include <osgDB/OutputStream>
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -24,8 +22,6 @@ using osgRayTrace::PhysicalMaterial;
 
 namespace
 {
-
-using Words = std::vector<std::pair<std::string, std::string>>;
 
 constexpr const char* kTextures[PhysicalMaterial::NUMBER_OF_TEXTURES] = {
     "baseColorTexture",
@@ -57,49 +53,24 @@ bool isDetail(int number)
     return number >= PhysicalMaterial::NORMAL_TEXTURE;
 }
 
-std::string wordOf(std::initializer_list<float> values)
-{
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text.precision(std::numeric_limits<float>::max_digits10);
-    for (const float value : values)
-        text << (text.tellp() > 0 ? "," : "") << value;
-    return text.str();
-}
-
 std::string wordOf(float value)
 {
-    return wordOf({value});
+    return wordOfNumbers({value});
 }
 
 std::string wordOf(int value)
 {
-    return wordOf({static_cast<float>(value)});
+    return wordOfNumbers({static_cast<float>(value)});
 }
 
 std::string wordOf(bool value)
 {
-    return wordOf({value ? 1.0f : 0.0f});
+    return wordOfNumbers({value ? 1.0f : 0.0f});
 }
 
 std::string wordOf(const osg::Vec3& v)
 {
-    return wordOf({v.x(), v.y(), v.z()});
-}
-
-std::vector<float> valuesOf(const std::string& word, std::size_t count)
-{
-    std::istringstream text(word);
-    text.imbue(std::locale::classic());
-    std::vector<float> values;
-    float value = 0.0f;
-    while (text >> value)
-    {
-        values.push_back(value);
-        text.ignore(1, ',');
-    }
-    values.resize(count, 0.0f);
-    return values;
+    return wordOfNumbers({v.x(), v.y(), v.z()});
 }
 
 void read(const std::string& word, float& value)
@@ -230,8 +201,8 @@ Words wordsOf(const PhysicalMaterial& material)
         const PhysicalMaterial::TexturePlace& p = material.getTexturePlace(useOf(i));
         if (!(p == PhysicalMaterial::TexturePlace()))
             words.emplace_back(kTextures[i] + std::string("Place"),
-                               wordOf({float(p.unit), p.offset.x(), p.offset.y(), p.rotation,
-                                       p.scale.x(), p.scale.y()}));
+                               wordOfNumbers({float(p.unit), p.offset.x(), p.offset.y(), p.rotation,
+                                              p.scale.x(), p.scale.y()}));
         if (isDetail(i) && material.getTexture(useOf(i))) words.emplace_back(kTextures[i], "1");
     }
     return words;
@@ -277,30 +248,6 @@ bool isTexture(const std::string& name)
 /// Begins the parameters in binary files, which have it in no other place.
 constexpr std::string_view kBinaryName = "osgRayTrace::PhysicalMaterial::Details";
 
-/// Gives access to a stream's iterator, which osgDB shows to derived classes alone.
-struct OpenStream : osgDB::InputStream
-{
-    static std::istream& bytesOf(osgDB::InputStream& stream)
-    {
-        return *(stream.*(&OpenStream::_in))->getStream();
-    }
-};
-
-/// Returns whether a binary stream goes on with the name; the stream stays where it is.
-bool isNext(osgDB::InputStream& stream)
-{
-    std::istream& bytes = OpenStream::bytesOf(stream);
-    const std::istream::pos_type here = bytes.tellg();
-    char next[64] = {};
-    const std::size_t lengthBytes = 4;
-    bytes.read(next, static_cast<std::streamsize>(lengthBytes + kBinaryName.size()));
-    const bool found = bytes.good() &&
-                       std::memcmp(next + lengthBytes, kBinaryName.data(), kBinaryName.size()) == 0;
-    bytes.clear();
-    bytes.seekg(here);
-    return found;
-}
-
 class MaterialDetails : public osgDB::BaseSerializer
 {
 public:
@@ -310,15 +257,7 @@ public:
 
     bool read(osgDB::InputStream& stream, osg::Object& object) override
     {
-        std::string name;
-        if (!stream.isBinary())
-        {
-            if (!stream.matchString(_name)) return true;
-        }
-        else if (isNext(stream))
-            stream >> name;
-        else
-            return true;
+        if (!readsTag(stream, _name, kBinaryName)) return true;
         return readWords(stream, static_cast<PhysicalMaterial&>(object));
     }
 
@@ -327,10 +266,7 @@ public:
         const auto& material = static_cast<const PhysicalMaterial&>(object);
         const Words words = wordsOf(material);
         if (words.empty()) return true;
-        if (stream.isBinary())
-            stream << std::string(kBinaryName);
-        else
-            stream << stream.PROPERTY(_name.c_str());
+        writeTag(stream, _name, kBinaryName);
         stream.writeSize(words.size());
         stream << stream.BEGIN_BRACKET << std::endl;
         for (const auto& [name, word] : words)

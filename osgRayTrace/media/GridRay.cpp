@@ -146,8 +146,9 @@ public:
         }
         if (_ray._around && endsWithin(_ray._aroundPart))
         {
-            most += largestOf(_ray._around->sigmaT) + _aroundExtra;
-            least += _ray._around->sigmaT;
+            const auto [thin, thick] = _ray._aroundWay.densities(_begin, _end);
+            most += largestOf(_ray._around->sigmaT) * thick + _aroundExtra;
+            least += _ray._around->sigmaT * thin;
         }
         if (_reachedExtra > 0.0f && endsWithin(_ray._reached)) most += _reachedExtra;
         return true;
@@ -201,6 +202,7 @@ void GridRay::setAround(const MediumRecord& medium, RayPart part)
     if (part.isEmpty() || medium.isClear) return;
     _around = &medium;
     _aroundPart = part;
+    _aroundWay = MediumWay(medium, _origin, _direction, part);
     _extent = {std::min(_extent.begin, part.begin), std::max(_extent.end, part.end)};
 }
 
@@ -267,8 +269,9 @@ GridRay::Coefficients GridRay::at(float distance, bool withEmission) const
     }
     if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
     {
-        sum.sigmaT += _around->sigmaT;
-        sum.emission += _around->emission;
+        const float density = _aroundWay.density(distance);
+        sum.sigmaT += _around->sigmaT * density;
+        sum.emission += _around->emission * density;
     }
     return sum;
 }
@@ -288,7 +291,7 @@ Scatterers GridRay::scatterersAt(float distance) const
         scatterers.add(grid.sigmaS * albedo * amountOf(*grid.volume, point.opacity), grid.phase);
     }
     if (_around && distance >= _aroundPart.begin && distance < _aroundPart.end)
-        scatterers.add(_around->sigmaS, _around->phase);
+        scatterers.add(_around->sigmaS * _aroundWay.density(distance), _around->phase);
     return scatterers;
 }
 

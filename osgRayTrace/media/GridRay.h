@@ -12,6 +12,7 @@
 // heuristic over the channels, F_c / sum of p F [Miller19, sect. 5].
 #pragma once
 
+#include "osgRayTrace/media/MediumWay.h"
 #include "osgRayTrace/media/VolumeLighting.h"
 #include "osgRayTrace/sampling/Hash.h"
 
@@ -169,6 +170,7 @@ private:
     bool _isLit = false; ///< whether the latter are set
     int _count = 0;
     const MediumRecord* _around = nullptr;
+    MediumWay _aroundWay; ///< along _aroundPart
     RayPart _aroundPart, _reached, _extent;
 };
 

@@ -17,6 +17,9 @@ namespace
 /// The largest coefficient [1/engine unit]. Optical depths up to 1e30 leave floats finite.
 constexpr float kLargestCoefficient = 1e24f;
 
+/// The least scale height, over the radius of the medium's sphere.
+constexpr float kLeastScaleHeight = 1e-6f;
+
 Vec3 usable(Vec3 coefficient, float unit)
 {
     Vec3 result;
@@ -40,6 +43,17 @@ MediumRecord recordOf(const Medium& medium, float unit)
     return record;
 }
 
+/// Has the medium thin out from a place on.
+void thinOut(MediumRecord& record, const Atmosphere& around, float radius)
+{
+    // Floats have no heights of thinner layers.
+    const float scale = std::max(around.scaleHeight, kLeastScaleHeight * radius);
+    record.thins = scale > 0.0f && scale < kInfinity;
+    if (!record.thins) return;
+    record.rise = around.up / scale;
+    record.base = glm::dot(record.rise, around.centre);
+}
+
 } // namespace
 
 MediumTable::MediumTable(const Scene& scene, Vec3 low, Vec3 high)
@@ -51,6 +65,7 @@ MediumTable::MediumTable(const Scene& scene, Vec3 low, Vec3 high)
     _centre = own ? around->centre : 0.5f * (low + high);
     _radius = own ? around->radius : 0.5f * glm::length(high - low);
     if (!(_radius >= 0.0f) || !(_radius < kInfinity)) _radius = 0.0f;
+    if (around && around->scaleHeight > 0.0f) thinOut(_records.front(), *around, _radius);
 
     _interiors.assign(scene.materials.size(), kOutside);
     _interfaces.assign(scene.materials.size(), false);

@@ -7,6 +7,8 @@
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/scene/Scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace osgRayTrace::engine
@@ -24,6 +26,17 @@ struct MediumRecord
     bool scatters = false, emits = false;
     bool isDense = false; ///< photons are points rather than beams: see kDenseMeanWay
     bool isClear = true;  ///< true: light passes as if nothing were there
+    /// The medium thins out with height: its coefficients are those above times exp(-max(0, x)) at
+    /// a point p, x = dot(rise, p) - base. See MediumWay.h.
+    bool thins = false;
+    Vec3 rise{0.0f}; ///< [1/engine unit]
+    float base = 0.0f;
+
+    /// Returns the share of the coefficients that is left at a point.
+    float densityAt(Vec3 point) const
+    {
+        return thins ? std::exp(-std::max(0.0f, glm::dot(rise, point) - base)) : 1.0f;
+    }
 };
 
 /// A medium is dense if the mean way between collisions is below this share of the radius of what

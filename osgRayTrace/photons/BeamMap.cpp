@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/BeamMap.h"
 
 #include "osgRayTrace/film/PowerLanes.h"
+#include "osgRayTrace/media/MediumWay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,7 @@ LaneMask nodesNear(const BoxTree::Node& node, const RayBundle& bundle, float dis
 struct Crossings
 {
     FloatLanes along, onBeam, sine2, cosine;
+    FloatLanes way, density; ///< see thinOut(): from the beam's origin to the ray's begin
 };
 
 /// Sets lane i of crossings. Returns all bits if the ray passes the piece within the radius.
@@ -120,8 +122,29 @@ OSGRAYTRACE_INLINE float henyeyGreenstein(float g, float cosine)
     return 0.25f * kInvPi * (1.0f - g * g) / (d * std::sqrt(d));
 }
 
+Vec3 vecOf(PlainVec3 v)
+{
+    return {v.x, v.y, v.z};
+}
+
+/// Sets the ways and the densities of crossings, some of which are in a medium that thins out.
+void thinOut(const BeamPiece& piece, const BeamQuery& q, LaneMask lanes, Crossings& c)
+{
+    for (const int i : lanesIn(lanes))
+    {
+        const MediumRecord& medium = (*q.thinning)[static_cast<MediumId>(q.medium[i])];
+        const Vec3 origin = vecOf(plainOrigin(*q.ray, i)),
+                   direction = vecOf(plainDirection(*q.ray, i));
+        const MediumWay ray(medium, origin, direction, {q.begin[i], c.along[i]});
+        const MediumWay beam(medium, vecOf(piece.origin), vecOf(piece.direction),
+                             {0.0f, c.onBeam[i]});
+        c.way[i] = ray.length() + beam.length();
+        c.density[i] = ray.density(c.along[i]);
+    }
+}
+
 /// Adds what a piece scatters towards the rays that pass it.
-template <bool kDroplets>
+template <bool kDroplets, bool kThins>
 OSGRAYTRACE_INLINE void addCrossings(const BeamPiece& piece, const BeamQuery& q, LaneMask lanes,
                                      const Crossings& c, Vec3Lanes& radiance)
 {
@@ -142,8 +165,9 @@ OSGRAYTRACE_INLINE void addCrossings(const BeamPiece& piece, const BeamQuery& q,
                                  (1.0f + alpha * (1.0f + 2.0f * own * own) * (1.0f / 3.0f));
             phase += q.draineShare[i] * (draine - phase);
         }
-        const float way = c.along[i] - q.begin[i] + c.onBeam[i];
-        const float weight = select(laneBit(lanes, i), phase * perWidth / sine, 0.0f);
+        const float way = kThins ? c.way[i] : c.along[i] - q.begin[i] + c.onBeam[i];
+        const float density = kThins ? c.density[i] : 1.0f;
+        const float weight = select(laneBit(lanes, i), phase * perWidth * density / sine, 0.0f);
         const PlainVec3 sigmaT = plainOf(q.sigmaT, i);
         radiance.x[i] += weight * power.x * q.sigmaS.x[i] * left(sigmaT.x, way);
         radiance.y[i] += weight * power.y * q.sigmaS.y[i] * left(sigmaT.y, way);
@@ -312,7 +336,7 @@ namespace
 {
 
 /// Adds what pieces scatter towards the rays that pass them.
-template <bool kDroplets>
+template <bool kDroplets, bool kThins>
 OSGRAYTRACE_INLINE void addPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
                                   const BeamQuery& query, Vec3Lanes& radiance)
 {
@@ -323,7 +347,9 @@ OSGRAYTRACE_INLINE void addPieces(const BeamPieces& pieces, std::size_t first, L
         const BeamPiece& piece = pieces[first + static_cast<std::size_t>(k)];
         if (piece.edges > mostEdges) continue;
         const LaneMask lanes = crossingsOf(piece, query, crossings);
-        if (lanes) addCrossings<kDroplets>(piece, query, lanes, crossings, radiance);
+        if (!lanes) continue;
+        if (kThins) thinOut(piece, query, lanes, crossings);
+        addCrossings<kDroplets, kThins>(piece, query, lanes, crossings, radiance);
     }
 }
 
@@ -331,14 +357,21 @@ OSGRAYTRACE_KERNEL
 void gatherPieces(const BeamPieces& pieces, std::size_t first, LaneMask near,
                   const BeamQuery& query, Vec3Lanes& radiance)
 {
-    addPieces<false>(pieces, first, near, query, radiance);
+    addPieces<false, false>(pieces, first, near, query, radiance);
 }
 
 OSGRAYTRACE_KERNEL
 void gatherDroplets(const BeamPieces& pieces, std::size_t first, LaneMask near,
                     const BeamQuery& query, Vec3Lanes& radiance)
 {
-    addPieces<true>(pieces, first, near, query, radiance);
+    addPieces<true, false>(pieces, first, near, query, radiance);
+}
+
+OSGRAYTRACE_KERNEL
+void gatherThinning(const BeamPieces& pieces, std::size_t first, LaneMask near,
+                    const BeamQuery& query, Vec3Lanes& radiance)
+{
+    addPieces<true, true>(pieces, first, near, query, radiance);
 }
 
 } // namespace
@@ -351,7 +384,9 @@ void gatherBeams(const BeamPieces& pieces, const RayBundle& bundle, const BeamQu
     for (std::size_t first = 0; first < pieces.size(); first += kLanes)
     {
         const LaneMask near = pieces.near(first, bundle, query.radius);
-        if (near && query.hasDroplets)
+        if (near && query.thinning)
+            gatherThinning(pieces, first, near, query, radiance);
+        else if (near && query.hasDroplets)
             gatherDroplets(pieces, first, near, query, radiance);
         else if (near)
             gatherPieces(pieces, first, near, query, radiance);

@@ -92,6 +92,7 @@ struct BeamQuery
     FloatLanes anisotropy;
     FloatLanes draineG, draineAlpha, draineShare; ///< of Phase; read if hasDroplets
     bool hasDroplets = false;
+    const MediumTable* thinning = nullptr; ///< null: no lane is in a medium that thins out
     UintLanes medium;
     LaneMask lanes = 0;     ///< the values of other lanes are not read
     uint32_t mostEdges = 0; ///< beams of longer paths are left out

@@ -100,7 +100,9 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     beam.origin =
         Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + beam.direction * part.begin;
     const float sigma = std::min(medium.sigmaT.x, std::min(medium.sigmaT.y, medium.sigmaT.z));
-    beam.length = std::min(part.end - part.begin, sigma > 0.0f ? kBeamEnd / sigma : kInfinity);
+    const MediumWay way = flights.wayOf(ray, beam.direction, i);
+    const float most = sigma > 0.0f ? kBeamEnd / sigma : kInfinity;
+    beam.length = most < way.length() ? way.distanceAt(most) - part.begin : part.end - part.begin;
     const float scale =
         static_cast<float>(_inputs.options.photons) / (static_cast<float>(beams) * kept);
     beam.power = laneOf(block.power, i) * scale;
@@ -165,7 +167,8 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
     const RayPart& part = flights.parts[i];
     if (part.isEmpty()) return meet(block, flights, i);
     const MediumRecord& medium = flights.media[flights.within[i]];
-    const float length = part.end - part.begin;
+    const MediumWay way = flights.wayOf(_rays.ray, laneOf(block.direction, i), i);
+    const float length = way.length();
     const Vec3 power = laneOf(block.power, i);
     if (!(largestOf(power) > 0.0f)) return FlightEnd::Dies; // it has underflowed
     if (!medium.scatters || mustArrive(flights))
@@ -179,7 +182,7 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
     const FreeFlight flight = sampleFlight(medium.sigmaT, length, channelPmf(power), u);
     setLane(block.power, i, power * flight.weight);
     if (!flight.collides) return meet(block, flights, i);
-    return collide(block, flights, i, part.begin + flight.distance, largestOf(power));
+    return collide(block, flights, i, way.distanceAt(flight.distance), largestOf(power));
 }
 
 /// Scatters a photon at a point of its ray, unless roulette ends it. before: largest component of
@@ -195,7 +198,9 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     const Vec3 direction = laneOf(block.direction, i), point = origin + direction * distance;
     Vec3 power = laneOf(block.power, i);
     if (first) power *= fallenOff(block.light[i], point, distance);
-    if (storesPoints(block, flights, i)) storePoint(block, flights, i, point, power);
+    // A point's power is over the extinction, which has the density of the medium there.
+    const float density = std::max(medium.densityAt(point), 1e-30f);
+    if (storesPoints(block, flights, i)) storePoint(block, flights, i, point, power / density);
     countCollision(block, flights, i);
     power *= medium.sigmaS;
     const float survival = std::min(1.0f, largestOf(power) / before);

@@ -48,6 +48,13 @@ struct ChunkTracer::Flights
     {
         return hasHit(i) ? media.interiorOf(surface.material[i]) : kOutside;
     }
+
+    /// Returns the stretch of a photon, which has this direction, in lengths of its medium.
+    MediumWay wayOf(const RayBlock& ray, Vec3 direction, int i) const
+    {
+        const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
+        return {media[within[i]], origin, direction, parts[i]};
+    }
 };
 
 } // namespace osgRayTrace::engine

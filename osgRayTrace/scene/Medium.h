@@ -39,12 +39,17 @@ struct Medium
 struct Atmosphere
 {
     Medium medium;
-    Vec3 centre{0.0f};   ///< engine space
+    Vec3 centre{0.0f};   ///< of the sphere, and on the base of heights [engine space]
     float radius = 0.0f; ///< [engine units]; 0: the sphere around all that is traced
+    /// The height over centre in which the medium thins out to 1/e [engine units]; below centre it
+    /// is even. 0: it is even everywhere.
+    float scaleHeight = 0.0f;
+    Vec3 up{0.0f, 0.0f, 1.0f}; ///< unit; in which heights grow
 
     bool operator==(const Atmosphere& other) const
     {
-        return medium == other.medium && centre == other.centre && radius == other.radius;
+        return medium == other.medium && centre == other.centre && radius == other.radius &&
+               scaleHeight == other.scaleHeight && up == other.up;
     }
 };
 

@@ -18,7 +18,7 @@ namespace
 // Whoever adds a member to one of these adds it below, too, unless images do not depend on it.
 static_assert(sizeof(Mesh) == 360 && sizeof(Instance) == 72);
 static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616 && sizeof(Fog) == 28 &&
-              sizeof(Medium) == 48 && sizeof(Atmosphere) == 64 && sizeof(Volume) == 240);
+              sizeof(Medium) == 48 && sizeof(Atmosphere) == 80 && sizeof(Volume) == 240);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(Environment) == 56);
 #endif
@@ -189,7 +189,8 @@ uint64_t sceneDigest(const Scene& scene)
     if (scene.atmosphere)
     {
         addMedium(scene.atmosphere->medium, hasher);
-        hasher.add(scene.atmosphere->centre, scene.atmosphere->radius);
+        hasher.add(scene.atmosphere->centre, scene.atmosphere->radius,
+                   scene.atmosphere->scaleHeight, scene.atmosphere->up);
     }
     hasher.add(scene.volumes.size());
     for (const Volume& volume : scene.volumes)

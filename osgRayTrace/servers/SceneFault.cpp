@@ -160,7 +160,8 @@ const char* sceneFault(const Scene& scene)
             return "a material has a medium out of range";
     if (scene.atmosphere &&
         !(isUsable(scene.atmosphere->medium) && isFinitePosition(scene.atmosphere->centre) &&
-          std::isfinite(scene.atmosphere->radius)))
+          std::isfinite(scene.atmosphere->radius) && std::isfinite(scene.atmosphere->scaleHeight) &&
+          isFinitePosition(scene.atmosphere->up)))
         return "the medium around the scene is out of range";
     if (scene.volumes.size() > kMostVolumes) return "a scene has too many volumes";
     for (const Volume& volume : scene.volumes)

@@ -16,7 +16,7 @@ namespace osgRayTrace::engine
 // that has the scene graph, and stay there. A test sends an edit of each member. A form of messages
 // that others do not read has another kMessages: BuildIdentity.cpp.
 static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
-static_assert(sizeof(Medium) == 48 && sizeof(Atmosphere) == 64);
+static_assert(sizeof(Medium) == 48 && sizeof(Atmosphere) == 80);
 static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
@@ -177,7 +177,7 @@ template <class Archive> void fieldsOf(Archive& a, Scene& s)
     if (hasAtmosphere)
     {
         fieldsOf(a, around.medium);
-        a(around.centre, around.radius);
+        a(around.centre, around.radius, around.scaleHeight, around.up);
     }
     if constexpr (std::is_same_v<Archive, WireReader>)
         s.atmosphere = hasAtmosphere ? std::make_shared<const Atmosphere>(around) : nullptr;

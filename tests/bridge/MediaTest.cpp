@@ -38,6 +38,18 @@ osg::ref_ptr<ApiMedium> hazeMedium()
     return medium;
 }
 
+/// Returns what a closed mesh holds; negative if its fronts are inside.
+double volumeOf(const Mesh& mesh)
+{
+    double sum = 0.0;
+    for (const UVec3& t : mesh.triangles)
+    {
+        const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+        sum += double(glm::dot(a, glm::cross(b, c))) / 6.0;
+    }
+    return sum;
+}
+
 } // namespace
 
 TEST_CASE("medium: coefficients from colours, and values that are refused", "[bridge]")
@@ -182,6 +194,68 @@ TEST_CASE("medium volume: the first one with a medium fills the scene", "[bridge
     CHECK(volume->getRadius() == 0.0f);
 }
 
+TEST_CASE("medium volume: a layer has its height and its up from the node's place", "[bridge]")
+{
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(triangleGeometry());
+    const osg::ref_ptr<MediumVolume> volume = new MediumVolume(hazeMedium());
+    CHECK(volume->getScaleHeight() == 1.0f);
+    volume->setScaleHeight(2.5f);
+    root->addChild(
+        placed(osg::Matrixd::scale(5, 5, 5) * osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)) *
+                   osg::Matrixd::translate(1, 2, 3),
+               volume));
+    CHECK(convertGraph(root).scene->atmosphere->scaleHeight == 0.0f);
+    volume->setShape(MediumVolume::LAYER);
+    const ConversionResult result = convertGraph(root);
+    REQUIRE(result.scene->atmosphere);
+    CHECK(result.scene->atmosphere->centre == Vec3(1, 2, 3));
+    CHECK(result.scene->atmosphere->scaleHeight == 2.5f);
+    const Vec3 up = result.scene->atmosphere->up;
+    CHECK(glm::length(up - Vec3(0, -1, 0)) < 1e-6f);
+    for (const float bad : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()})
+        volume->setScaleHeight(bad);
+    CHECK(volume->getScaleHeight() == 2.5f);
+    const osg::ref_ptr<MediumVolume> copy = osg::clone(volume.get());
+    CHECK(copy->getShape() == MediumVolume::LAYER);
+    CHECK(copy->getScaleHeight() == 2.5f);
+}
+
+TEST_CASE("medium volume: a box is a closed boundary that is not seen", "[bridge]")
+{
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(triangleGeometry());
+    const osg::ref_ptr<MediumVolume> volume = new MediumVolume(hazeMedium());
+    volume->setShape(MediumVolume::BOX);
+    volume->setBox({-1, -2, -3, 1, 2, 3});
+    CHECK(volume->getBound().radius() == Approx(std::sqrt(14.0)));
+    const osg::ref_ptr<osg::StateSet> above = root->getOrCreateStateSet();
+    above->setAttribute(new PhysicalMaterial, osg::StateAttribute::OVERRIDE);
+    above->setMode(GL_BLEND, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    root->addChild(placed(osg::Matrixd::rotate(0.5, osg::Vec3d(0, 1, 0)), volume));
+    root->addChild(placed(osg::Matrixd::translate(9, 0, 0), volume));
+    const ConversionResult result = convertGraph(root);
+    CHECK_FALSE(result.scene->atmosphere);
+    CHECK(countOf(result, "skipped.medium-volume") == 0);
+    CHECK(countOf(result, "warned.open-body") == 0);
+    std::size_t boxes = 0;
+    for (const Instance& instance : result.scene->instances)
+    {
+        const engine::Material& material = result.scene->materials[instance.material];
+        if (!engine::isInterface(material)) continue;
+        ++boxes;
+        CHECK(material.detail->interior.sigmaS == Vec3(1.0f, 2.0f, 3.0f));
+        const Mesh& mesh = *result.scene->meshes[instance.mesh];
+        CHECK(mesh.triangles.size() == 12);
+        CHECK(volumeOf(mesh) == Approx(48.0));
+    }
+    CHECK(boxes == 2);
+    volume->setBox({0, 0, 0, 1, 1, 0});
+    CHECK(countOf(convertGraph(root), "skipped.medium-volume") == 2);
+    volume->setBox({0, 0, 0, 1, 1, std::numeric_limits<float>::infinity()});
+    CHECK(volume->getBox().zMax() == 0.0f);
+}
+
 TEST_CASE("medium volume: edits are seen", "[bridge]")
 {
     LiveGraph graph;
@@ -203,6 +277,21 @@ TEST_CASE("medium volume: edits are seen", "[bridge]")
     edit("droplet size", [&] { volume->getMedium()->setDropletSize(30.0f); });
     edit("emission", [&] { volume->getMedium()->setEmission({0.0f, 0.1f, 0.0f}); });
     edit("radius", [&] { volume->setRadius(1.0f); });
+    edit("layer", [&] { volume->setShape(MediumVolume::LAYER); });
+    edit("scale height", [&] { volume->setScaleHeight(0.2f); });
+    edit("box",
+         [&]
+         {
+             volume->setBox({0.11f, 0.07f, 0.13f, 1.03f, 0.97f, 1.21f}); // in no surface's plane
+             volume->setShape(MediumVolume::BOX);
+         });
+    edit("corners", [&] { volume->setBox({0.11f, 0.07f, 0.13f, 2.03f, 0.57f, 1.21f}); });
+    edit("scattering in the box", [&] { volume->getMedium()->setScattering({0.0f, 1.0f, 0.5f}); });
+    edit("absorption in the box", [&] { volume->getMedium()->setAbsorption({1.0f, 0.0f, 0.0f}); });
+    const osg::ref_ptr<ApiMedium> other = new ApiMedium(*volume->getMedium());
+    other->setScattering({2.0f, 0.0f, 0.0f});
+    edit("medium", [&] { volume->setMedium(other); });
+    edit("everywhere", [&] { volume->setShape(MediumVolume::EVERYWHERE); });
     edit("none", [&] { graph.root->removeChild(volume); });
 }
 

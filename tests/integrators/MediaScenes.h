@@ -38,6 +38,15 @@ inline void setAtmosphere(SceneBuilder& builder, const Medium& medium, float rad
     builder.scene->atmosphere = std::make_shared<Atmosphere>(atmosphere);
 }
 
+/// Has the medium around bodies thin out above its centre.
+inline void thinOut(SceneBuilder& builder, float scaleHeight, Vec3 up = Vec3(0, 0, 1))
+{
+    Atmosphere atmosphere = *builder.scene->atmosphere;
+    atmosphere.scaleHeight = scaleHeight;
+    atmosphere.up = up;
+    builder.scene->atmosphere = std::make_shared<Atmosphere>(atmosphere);
+}
+
 /// Adds a sky that is white, or so bright.
 inline void addSky(SceneBuilder& builder, float radiance = 1.0f)
 {

@@ -41,6 +41,17 @@ std::vector<VolumeScene> volumeScenes()
     cloud.dropletSize = mist.dropletSize = 5.0f;
     droplets.add(sphereMesh({400, 250, 120}, 90.0f, 24), bodyOf(cloud, 1.4f));
     droplets.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mist));
+
+    // The fog lies on the floor: photons are beams in it, or points.
+    scenes.push_back({"a layer of fog", foggyBox(0.6f, Vec3(0.9f, 0.6f, 0.3f))});
+    SceneBuilder& layer = scenes.back().builder;
+    setAtmosphere(layer, mediumOf(0.01f, 0.9f, 0.4f), 700.0f, {278, 60, 280});
+    thinOut(layer, 90.0f, {0, 1, 0});
+    layer.add(sphereMesh({400, 250, 120}, 90.0f, 24), glass(1.5f));
+    scenes.push_back({"a dense layer", cornellBox()});
+    SceneBuilder& thick = scenes.back().builder;
+    setAtmosphere(thick, mediumOf(0.6f, 0.9f), 700.0f, {278, 0, 280});
+    thinOut(thick, 60.0f, {0, 1, 0});
     return scenes;
 }
 

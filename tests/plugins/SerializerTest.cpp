@@ -284,6 +284,43 @@ TEST_CASE("serializers: MediumVolume keeps its medium and its radius", "[plugins
     }
 }
 
+TEST_CASE("serializers: MediumVolume keeps its shape, and files of before are read", "[plugins]")
+{
+    using osgRayTrace::MediumVolume;
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    const osg::ref_ptr<MediumVolume> even = new MediumVolume(new osgRayTrace::Medium);
+    const osg::ref_ptr<MediumVolume> layer = new MediumVolume(even->getMedium());
+    layer->setShape(MediumVolume::LAYER);
+    layer->setScaleHeight(0.1f);
+    const osg::ref_ptr<MediumVolume> box = new MediumVolume;
+    box->setShape(MediumVolume::BOX);
+    box->setBox({-0.1f, -2.0f, 3.0f, 0.3f, 5.0f, 1e6f});
+    for (const osg::ref_ptr<MediumVolume>& volume : {even, layer, box, even})
+        group->addChild(volume);
+    for (const Format& format : kFormats)
+    {
+        INFO(format.extension);
+        // What other versions do not know is not written unless it is used.
+        CHECK(written(*even, format).find("Extent") == std::string::npos);
+        const auto copy = roundTrip(*group, format);
+        REQUIRE(copy->getNumChildren() == 4);
+        const auto child = [&](unsigned int i)
+        { return dynamic_cast<const MediumVolume*>(copy->getChild(i)); };
+        for (const unsigned int i : {0u, 3u})
+        {
+            REQUIRE(child(i));
+            CHECK(child(i)->getShape() == MediumVolume::EVERYWHERE);
+        }
+        REQUIRE(child(1));
+        CHECK(child(1)->getShape() == MediumVolume::LAYER);
+        CHECK(child(1)->getScaleHeight() == 0.1f);
+        REQUIRE(child(2));
+        CHECK(child(2)->getShape() == MediumVolume::BOX);
+        CHECK(child(2)->getBox()._min == box->getBox()._min);
+        CHECK(child(2)->getBox()._max == box->getBox()._max);
+    }
+}
+
 TEST_CASE("serializers: RayTraceDrawable keeps its scene and settings", "[plugins]")
 {
     const osg::ref_ptr<RayTraceDrawable> drawable = new RayTraceDrawable;

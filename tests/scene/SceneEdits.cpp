@@ -129,6 +129,8 @@ std::vector<Edit> edits()
         ofAtmosphere([](Atmosphere& a) { a.medium.sigmaS.y = 0.7f; }),
         ofAtmosphere([](Atmosphere& a) { a.centre.z = 0.7f; }),
         ofAtmosphere([](Atmosphere& a) { a.radius = 7.0f; }),
+        ofAtmosphere([](Atmosphere& a) { a.scaleHeight = 0.7f; }),
+        ofAtmosphere([](Atmosphere& a) { a.up = Vec3(0, 1, 0); }),
         [](Scene& s) { s.volumes.push_back(s.volumes[0]); },
         [](Scene& s) { s.volumes.clear(); },
         ofVoxels([](VolumeImage& v) { v.bytes = {10}; }),

@@ -106,8 +106,10 @@ uint64_t nodeHash(NodeKind kind, const osg::Node& node)
                     static_cast<const osg::ClipNode&>(node).getReferenceFrame());
     case NodeKind::AreaLight:
     case NodeKind::Environment:
-    case NodeKind::Volume:
         return bitsOf(node.getStateSet()) + hintHash(node);
+    case NodeKind::Volume: // becomes untracked as a box
+        return fold(bitsOf(node.getStateSet()) + hintHash(node),
+                    static_cast<const MediumVolume&>(node).getShape() == MediumVolume::BOX);
     case NodeKind::Geometry:
     case NodeKind::Untracked:
         break;
@@ -124,7 +126,8 @@ uint64_t lightHash(NodeKind kind, const osg::Node& node, KeptObjects* kept)
     {
         const auto& volume = static_cast<const MediumVolume&>(node);
         addMedium(hasher, volume.getMedium());
-        hasher.add(volume.getRadius());
+        hasher.add(volume.getRadius(), volume.getShape(), volume.getScaleHeight(),
+                   volume.getBox()._min, volume.getBox()._max);
         return hasher.value();
     }
     if (kind == NodeKind::AreaLight)

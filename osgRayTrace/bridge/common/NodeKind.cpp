@@ -56,7 +56,10 @@ NodeKind kindOf(const osg::Node& node)
     if (type == typeid(osg::ClipNode)) return NodeKind::Clip;
     if (type == typeid(AreaLight)) return NodeKind::AreaLight;
     if (type == typeid(EnvironmentLight)) return NodeKind::Environment;
-    if (type == typeid(MediumVolume)) return NodeKind::Volume;
+    if (type == typeid(MediumVolume))
+        return static_cast<const MediumVolume&>(node).getShape() == MediumVolume::BOX
+                   ? NodeKind::Untracked // it is converted as a mesh
+                   : NodeKind::Volume;
     return isDecorator(node) ? NodeKind::Group : NodeKind::Untracked;
 }
 

@@ -180,7 +180,8 @@ constexpr ReportReason kReportReasons[] = {
     {"skipped.clip-plane", "clip planes that are not finite, or of a number above 7"},
     {"skipped.volume", "osgVolume's tiles without an image, a place or room"},
     {"skipped.degenerate", "triangles without an area"},
-    {"skipped.medium-volume", "MediumVolumes without a medium, and all but one of a scene"},
+    {"skipped.medium-volume", "MediumVolumes without a medium or with a flat box, and all but one "
+                              "of a scene that is no box"},
     {"skipped.environment-light", "environment lights without an image, or beside another one"},
     {"skipped.light", "lights that are not finite, or of a number above 16383"},
     {"skipped.not-finite-transform", "transforms that are not finite, with all below them"},

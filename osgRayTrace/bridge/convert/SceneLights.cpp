@@ -220,6 +220,14 @@ void setAtmosphere(Scene& scene, const std::vector<CollectedVolume>& sources,
         const osg::Vec3d centre = source.engineFromLocal.getTrans();
         atmosphere.centre = Vec3(Vec3d(centre.x(), centre.y(), centre.z()));
         atmosphere.radius = static_cast<float>(double(source.volume->getRadius()) / scene.unit);
+        if (source.volume->getShape() == MediumVolume::LAYER)
+        {
+            osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), source.engineFromLocal);
+            up.normalize();
+            atmosphere.up = Vec3(Vec3d(up.x(), up.y(), up.z()));
+            atmosphere.scaleHeight =
+                static_cast<float>(double(source.volume->getScaleHeight()) / scene.unit);
+        }
         scene.atmosphere = std::make_shared<const Atmosphere>(atmosphere);
     }
 }

@@ -213,6 +213,7 @@ void DrawableTriangles::end()
     forget(_copies);
     forget(_chosen);
     isoSurfaces.end();
+    mediumBoxes.end();
 }
 
 void DrawableTriangles::dropUnshared()

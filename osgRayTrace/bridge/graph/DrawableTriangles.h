@@ -4,6 +4,7 @@
 #pragma once
 
 #include "osgRayTrace/bridge/graph/IsoSurfaces.h"
+#include "osgRayTrace/bridge/graph/MediumBoxes.h"
 
 #include <osg/Drawable>
 #include <osg/Geometry>
@@ -27,6 +28,7 @@ public:
     {
         ++_round;
         isoSurfaces.begin();
+        mediumBoxes.begin();
     }
 
     /// Returns the triangles; null: the drawable tells none. The pointer is valid until end().
@@ -50,7 +52,9 @@ public:
     /// tells none.
     static uint64_t hashOf(const osg::Drawable& drawable);
 
-    IsoSurfaces isoSurfaces; ///< of osgVolume's tiles, which have the rounds of this object
+    // These have the rounds of this object.
+    IsoSurfaces isoSurfaces; ///< of osgVolume's tiles
+    MediumBoxes mediumBoxes;
 
 private:
     struct Copy

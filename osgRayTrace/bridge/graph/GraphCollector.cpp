@@ -350,7 +350,10 @@ bool GraphCollector::collectLeaf(osg::Node& node)
     if (const auto* volume = dynamic_cast<const MediumVolume*>(&node))
     {
         recordSpecial();
-        _graph.lights.volumes.push_back({volume, engineFromLocal(), path()});
+        if (volume->getShape() == MediumVolume::BOX && volume->getMedium())
+            collectBox(*volume);
+        else
+            _graph.lights.volumes.push_back({volume, engineFromLocal(), path()});
         return true;
     }
     if (isFrom(&node, "osg")) return false;

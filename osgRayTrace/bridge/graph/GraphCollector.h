@@ -90,6 +90,7 @@ private:
     bool leavesDrawable(osg::Billboard& billboard);
     bool leavesGroup(osg::Node& node);
     void collectVolume(osg::Group& group);
+    void collectBox(const MediumVolume& volume);
     void collectIsoSurface(const osgVolume::VolumeTile& tile, bool hasMaterial);
     void traverseGroup(osg::Group& group);
     void rasterize(RasterizedPart::Kind kind = RasterizedPart::Draw, osg::Node* inPlace = nullptr);

@@ -139,6 +139,29 @@ void GraphCollector::collectIsoSurface(const osgVolume::VolumeTile& tile, bool h
     --_untracked;
 }
 
+/// Collects the box of the volume at the end of the path. Nothing picks it, and OSG never draws it.
+void GraphCollector::collectBox(const MediumVolume& volume)
+{
+    if (_lightsOnly) return;
+    const osg::Geometry* box = _triangles.mediumBoxes.of(volume);
+    if (!box)
+    {
+        _report.warn("skipped.medium-volume", "medium volume '" + path() + "'",
+                     "its box has no extent along some axis, skipped");
+        return;
+    }
+    if (volume.getStateSet()) _states.push(*volume.getStateSet());
+    _states.push(*box->getStateSet());
+    ++_untracked;
+    collectUse(*box, _states.top(), false);
+    _graph.geometries[_indexOf.at({box, restartOf(_states.states()[_states.top()]).key()})]
+        .uses.back()
+        .path = NodeTree::kNone;
+    --_untracked;
+    _states.pop();
+    if (volume.getStateSet()) _states.pop();
+}
+
 /// Traverses the children, whatever the group's own traverse does.
 void GraphCollector::traverseGroup(osg::Group& group)
 {

@@ -37,6 +37,7 @@ BeamQuery queryOf(const PassContext& context, const MediumSegments& segments, La
         query.draineAlpha[i] = phase.draineAlpha;
         query.draineShare[i] = phase.draineShare;
         query.hasDroplets |= phase.draineShare > 0.0f;
+        if (used && medium.thins) query.thinning = &media;
         query.medium[i] = used ? segments.media[i] : kOutside;
     }
     return query;

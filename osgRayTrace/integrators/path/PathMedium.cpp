@@ -82,7 +82,7 @@ void MediumWalk::addLight()
         Vec3 emitted(0.0f);
         if (medium.emits && !part.isEmpty() && !_segments.gridsOf(i))
             emitted = laneOf(_block.throughput, i) *
-                      emittedAlong(medium.emission, medium.sigmaT, part.end - part.begin);
+                      emittedAlong(medium.emission, medium.sigmaT, _segments.lengthOf(i, medium));
         setLane(radiance, i, emitted);
     }
     addSegmentLights(_tile.context, _tile.deltaLights, _segments, _tile.counts, radiance);
@@ -127,7 +127,7 @@ MediumWalk::End MediumWalk::travel(int i)
     if (part.isEmpty()) return meet(i);
     if (const GridRay* grids = _segments.gridsOf(i)) return travelGrids(i, *grids);
     const MediumRecord& medium = _media[_segments.media[i]];
-    const float length = part.end - part.begin;
+    const float length = _segments.lengthOf(i, medium);
     const Vec3 throughput = laneOf(_block.throughput, i);
     const bool beamsOnly = _use == PhotonUse::Indirect && !medium.isDense && !_causticsAlone;
     if (!medium.scatters || !_collides || beamsOnly)
@@ -138,7 +138,7 @@ MediumWalk::End MediumWalk::travel(int i)
     const FreeFlight flight = sampleFlight(medium.sigmaT, length, channelPmf(throughput),
                                            _segments.numbers[i].at(MediumFlight).x);
     setLane(_block.throughput, i, throughput * flight.weight);
-    return flight.collides ? collide(i, part.begin + flight.distance) : meet(i);
+    return flight.collides ? collide(i, _segments.distanceAt(i, medium, flight.distance)) : meet(i);
 }
 
 /// Counts a collision, and sets the throughput behind it unless the path ends there.

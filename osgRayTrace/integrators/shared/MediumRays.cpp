@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/media/GridRay.h"
+#include "osgRayTrace/media/MediumWay.h"
 #include "osgRayTrace/media/Transmittance.h"
 
 #include <cmath>
@@ -24,7 +25,11 @@ Vec3 leftAlong(const MediumTable& media, MediumStack bodies, const RayBlock& ray
     if (record.sigmaT == Vec3(0.0f)) return Vec3(1.0f);
     const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
     const RayPart part = media.clipped(medium, origin, directionOf(ray, i), begin, end);
-    return part.isEmpty() ? Vec3(1.0f) : transmittance(record.sigmaT, part.end - part.begin);
+    if (part.isEmpty()) return Vec3(1.0f);
+    const float length = record.thins
+                             ? MediumWay(record, origin, directionOf(ray, i), part).length()
+                             : part.end - part.begin;
+    return transmittance(record.sigmaT, length);
 }
 
 void dim(LightLanes& samples, int i, Vec3 share)

@@ -33,7 +33,8 @@ uint32_t bitsOf(float u)
     return bits;
 }
 
-/// A point of a stretch with its weight: transmittance over density [length].
+/// A point of a stretch with its weight: transmittance over density [length], times that of a
+/// medium which thins out.
 struct Place
 {
     Vec3 point;
@@ -108,6 +109,11 @@ Place Segments::near(int i, Vec3 light, float u, float size) const
         NumberStream numbers(_segments.numbers[i].seedOf(MediumGridWay + bitsOf(u)));
         left = grids->transmittance(part.begin, sample.t, numbers);
     }
+    else if (mediumOf(i).thins)
+    {
+        const MediumWay way = _segments.wayOf(i, mediumOf(i));
+        left = transmittance(mediumOf(i).sigmaT, way.lengthTo(sample.t)) * way.density(sample.t);
+    }
     else
         left = transmittance(mediumOf(i).sigmaT, sample.t - part.begin);
     return {origin(i) + direction(i) * sample.t, left / sample.pdf, sample.t};
@@ -116,7 +122,6 @@ Place Segments::near(int i, Vec3 light, float u, float size) const
 /// Returns a point at which light that travels against the ray would collide.
 Place Segments::byFlight(int i, float u) const
 {
-    const RayPart& part = _segments.parts[i];
     const Vec3 pmf = channelPmf(laneOf(_segments.throughput, i));
     if (const GridRay* grids = _segments.gridsOf(i))
     {
@@ -125,9 +130,11 @@ Place Segments::byFlight(int i, float u) const
         if (!flight.collides) return {};
         return {origin(i) + direction(i) * flight.distance, flight.weight, flight.distance};
     }
-    const FreeFlight flight = sampleFlightWithin(mediumOf(i).sigmaT, part.end - part.begin, pmf, u);
+    const MediumRecord& medium = mediumOf(i);
+    const float length = _segments.lengthOf(i, medium);
+    const FreeFlight flight = sampleFlightWithin(medium.sigmaT, length, pmf, u);
     if (!flight.collides) return {};
-    const float distance = part.begin + flight.distance;
+    const float distance = _segments.distanceAt(i, medium, flight.distance);
     return {origin(i) + direction(i) * distance, flight.weight, distance};
 }
 
@@ -398,12 +405,18 @@ void Segments::addEnvironment()
 
 } // namespace
 
+MediumWay MediumSegments::wayOf(int i, const MediumRecord& medium) const
+{
+    const Vec3 origin(ray->originX[i], ray->originY[i], ray->originZ[i]);
+    return {medium, origin, directionOf(*ray, i), parts[i]};
+}
+
 float collisionProbability(const PassContext& context, const MediumSegments& segments, int i)
 {
     if (segments.gridsOf(i)) return 1.0f;
-    const RayPart& part = segments.parts[i];
-    return collisionProbability(context.traced->media()[segments.media[i]].sigmaT,
-                                part.end - part.begin, channelPmf(laneOf(segments.throughput, i)));
+    const MediumRecord& medium = context.traced->media()[segments.media[i]];
+    return collisionProbability(medium.sigmaT, segments.lengthOf(i, medium),
+                                channelPmf(laneOf(segments.throughput, i)));
 }
 
 void addSegmentLights(const PassContext& context, const SampledLights& deltaLights,

@@ -16,6 +16,7 @@
 #include "osgRayTrace/integrators/shared/SampledLights.h"
 #include "osgRayTrace/integrators/shared/TileResult.h"
 #include "osgRayTrace/media/GridRay.h"
+#include "osgRayTrace/media/MediumWay.h"
 
 #include <optional>
 
@@ -42,6 +43,21 @@ struct MediumSegments
     /// Returns the volumes on the stretch of lane i; null if there are none. The part of the lane
     /// is then their extent, and includes what the homogeneous medium fills.
     const GridRay* gridsOf(int i) const { return grids && (*grids)[i] ? &*(*grids)[i] : nullptr; }
+
+    /// Returns the stretch of lane i, which this medium alone fills.
+    MediumWay wayOf(int i, const MediumRecord& medium) const;
+
+    /// Returns its length at full density.
+    float lengthOf(int i, const MediumRecord& medium) const
+    {
+        return medium.thins ? wayOf(i, medium).length() : parts[i].end - parts[i].begin;
+    }
+
+    /// Returns where on the ray so much of that length lies behind.
+    float distanceAt(int i, const MediumRecord& medium, float length) const
+    {
+        return medium.thins ? wayOf(i, medium).distanceAt(length) : parts[i].begin + length;
+    }
 };
 
 /// Returns the probability with which a free flight through the stretch of lane i collides. Within

@@ -91,7 +91,7 @@ void addAir(WhittedTile& tile, ShadingBlock& block, LaneMask active)
     for (const int i : lanesIn(filled))
     {
         const MediumRecord& medium = media[segments.media[i]];
-        const float length = segments.parts[i].end - segments.parts[i].begin;
+        const float length = segments.lengthOf(i, medium);
         const Vec3 weight = laneOf(block.weight, i);
         const Vec3 emitted = weight * emittedAlong(medium.emission, medium.sigmaT, length);
         setLane(block.air, i, emitted + laneOf(light, i) * share);
