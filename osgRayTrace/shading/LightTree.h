@@ -146,7 +146,10 @@ private:
     using JoinedPairs = std::unordered_map<uint32_t, Joined>;
 
     void setNodes(const EmitterSource& source, const Workers* workers);
-    Joined setSubtree(const LightPairs::Subtree& subtree, const EmitterSource& source);
+    class SubtreeBounds;
+    Joined setEmitters(const LightPairs::Subtree& subtree, const EmitterSource& source);
+    void setSubtrees(const LightPairs::Subtree* subtrees, std::size_t count,
+                     const EmitterSource& source, Joined* joined);
     Joined setTop(uint32_t pair, const EmitterSource& source, const JoinedPairs& below);
 
     std::shared_ptr<const LightPairs> _pairs;
