@@ -103,19 +103,20 @@ Place Segments::near(int i, Vec3 light, float u, float size) const
     const Equiangular stretch(origin(i), direction(i), part.begin, part.end, light, size);
     const EquiangularSample sample = stretch.sample(u);
     if (!(sample.pdf > 0.0f) || !(sample.pdf < kInfinity)) return {};
+    const MediumRecord& medium = mediumOf(i);
     Vec3 left;
     if (const GridRay* grids = _segments.gridsOf(i))
     {
         NumberStream numbers(_segments.numbers[i].seedOf(MediumGridWay + bitsOf(u)));
         left = grids->transmittance(part.begin, sample.t, numbers);
     }
-    else if (mediumOf(i).thins)
+    else if (medium.thins)
     {
-        const MediumWay way = _segments.wayOf(i, mediumOf(i));
-        left = transmittance(mediumOf(i).sigmaT, way.lengthTo(sample.t)) * way.density(sample.t);
+        const MediumWay way = _segments.wayOf(i, medium);
+        left = transmittance(medium.sigmaT, way.lengthTo(sample.t)) * way.density(sample.t);
     }
     else
-        left = transmittance(mediumOf(i).sigmaT, sample.t - part.begin);
+        left = transmittance(medium.sigmaT, sample.t - part.begin);
     return {origin(i) + direction(i) * sample.t, left / sample.pdf, sample.t};
 }
 
