@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <utility>
 
 namespace osgRayTrace::app
 {
@@ -112,24 +113,30 @@ void PassWorker::beginSum(const GroupMessage& message)
         _sum->high.resize(_sum->low.size(), 0);
         _waiting.push_back(&_sum->high);
     }
-    _depths.clear();
-    if (message.first != 0)
-    {
-        _depths.assign(_sum->depth.size(), 0);
-        if (message.first == _group.rank()) depthsToBits(_sum->depth, _depths);
-        _waiting.push_back(&_depths);
-    }
+    _depthRank = message.first;
+    // Rank 0 is the first that is told to add, so that there is still time to say what it lacks.
+    if (_depthRank != 0 && _group.rank() == 0) _depths.resize(_sum->depth.size());
     addNext();
 }
 
-/// Begins to add the next array, if there is one.
+/// Begins to add the next array, if there is one. The depths are the last one: ranks but 0 have
+/// sent their sums by then, and use their memory again.
 void PassWorker::addNext()
 {
-    _summing = !_waiting.empty();
-    if (!_summing) return;
-    std::vector<std::int64_t>& values = *_waiting.front();
-    _waiting.pop_front();
-    _group.beginSum(values.data(), values.size());
+    std::vector<std::int64_t>* values = nullptr;
+    if (!_waiting.empty())
+    {
+        values = _waiting.front();
+        _waiting.pop_front();
+    }
+    else if (const int from = std::exchange(_depthRank, 0))
+    {
+        values = _group.rank() == 0 ? &_depths : &_sum->low;
+        values->assign(_sum->depth.size(), 0);
+        if (_group.rank() == from) depthsToBits(_sum->depth, *values);
+    }
+    _summing = values != nullptr;
+    if (_summing) _group.beginSum(values->data(), values->size());
 }
 
 bool PassWorker::poll()
@@ -143,7 +150,11 @@ bool PassWorker::poll()
         _send(message);
     if (!_summing || !_group.sumIsDone()) return !said.empty() || _summing;
     addNext();
-    if (!_summing && !_depths.empty()) bitsToDepths(_depths, _sum->depth);
+    if (!_summing && !_depths.empty())
+    {
+        bitsToDepths(_depths, _sum->depth);
+        std::vector<std::int64_t>().swap(_depths);
+    }
     return true;
 }
 

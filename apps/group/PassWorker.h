@@ -87,8 +87,9 @@ private:
     // The communicating thread's.
     bool _summing = false;
     std::optional<engine::PassSums> _sum;
-    std::vector<std::int64_t> _depths;               ///< if they are another rank's than 0
-    std::deque<std::vector<std::int64_t>*> _waiting; ///< arrays to be added, of all ranks each
+    std::deque<std::vector<std::int64_t>*> _waiting; ///< arrays of sums to be added
+    int _depthRank = 0;                ///< whose depths are to be added then; 0: nobody's
+    std::vector<std::int64_t> _depths; ///< rank 0's, if they are another rank's
 
     // The working thread's.
     bool _greeted = false;

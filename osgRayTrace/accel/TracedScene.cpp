@@ -305,9 +305,10 @@ float TracedScene::Implementation::reach() const
 void TracedScene::Implementation::findFiltered()
 {
     filtered.resize(scene->meshes.size());
-    const bool masks = pool->device()->masksRays();
+    const bool masked = pool->device()->masksRays();
     for (const Instance& instance : scene->instances)
-        if (needsFilter(materials->table[instance.material], masks)) filtered[instance.mesh] = true;
+        if (needsFilter(materials->table[instance.material], masked))
+            filtered[instance.mesh] = true;
 }
 
 TracedScene::TracedScene() : _implementation(std::make_unique<Implementation>()) {}

@@ -146,6 +146,7 @@ public:
         }
         if (_ray._around && endsWithin(_ray._aroundPart))
         {
+            _end = std::min(_end, _ray._aroundWay.evenEnd(_begin));
             const auto [thin, thick] = _ray._aroundWay.densities(_begin, _end);
             most += largestOf(_ray._around->sigmaT) * thick + _aroundExtra;
             least += _ray._around->sigmaT * thin;

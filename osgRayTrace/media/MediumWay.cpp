@@ -32,6 +32,18 @@ float MediumWay::densityOf(float way) const
     return std::exp(-std::max(0.0f, _height + _rise * way));
 }
 
+float MediumWay::evenEnd(float distance) const
+{
+    constexpr float kStep = 2.0f, kNothing = 30.0f; // [scale heights]
+    const float height = _height + _rise * (distance - _begin), rate = std::fabs(_rise);
+    if (!_thins || !(rate > 0.0f)) return kInfinity;
+    const bool rises = _rise > 0.0f;
+    if (rises ? height > kNothing : height < 0.0f) return kInfinity;
+    const float even = rises ? std::max(0.0f, -height) : std::max(0.0f, height - kNothing);
+    const float end = distance + (even + kStep) / rate;
+    return end > distance ? end : kInfinity; // far from the layer floats have no smaller steps
+}
+
 /// Returns the integral of the density over a stretch above the base.
 float MediumWay::lengthAbove(float begin, float end) const
 {

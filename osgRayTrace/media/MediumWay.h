@@ -60,6 +60,10 @@ public:
         return {std::min(a, b), std::max(a, b)};
     }
 
+    /// Returns a distance along the ray, behind the given one, up to which the density changes by a
+    /// factor of e^2 at most, or is below e^-30; infinity: there is none before the ray's end.
+    float evenEnd(float distance) const;
+
 private:
     void setHeights(const MediumRecord& medium, Vec3 origin, Vec3 direction);
     float lengthAbove(float begin, float end) const;

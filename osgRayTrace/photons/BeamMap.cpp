@@ -68,7 +68,7 @@ LaneMask nodesNear(const BoxTree::Node& node, const RayBundle& bundle, float dis
 struct Crossings
 {
     FloatLanes along, onBeam, sine2, cosine;
-    FloatLanes way, density; ///< see thinOut(): from the beam's origin to the ray's begin
+    FloatLanes way{}, density{}; ///< see thinOut(): from the beam's origin to the ray's begin
 };
 
 /// Sets lane i of crossings. Returns all bits if the ray passes the piece within the radius.

@@ -201,4 +201,9 @@ TEST_CASE("proxies: a dome has one again once something is outside", "[bridge]")
     check(0, 3);
     moveDome(9.0);
     check(1, 4);
+    moveDome(1.0);
+    check(0, 5);
+    // Its first corner is in the box around the dome, and the other one is not.
+    graph.objects[4]->setMatrix(osg::Matrixd::translate(11.4, 1, 0.1));
+    check(1, 6);
 }

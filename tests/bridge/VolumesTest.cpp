@@ -10,6 +10,7 @@
 #include "tests/bridge/LiveGraph.h"
 
 #include <osgRayTrace/Medium>
+#include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/LightSource>
@@ -104,10 +105,44 @@ TEST_CASE("volume tiles: smoke without surfaces is lit by all lights", "[bridge]
     material->setInterior(medium);
     tile->getOrCreateStateSet()->setAttribute(material);
     CHECK(convertGraph(root).scene->lights.size() == 1);
+    // The boundary of a box of haze is no surface, and the haze is lit as the smoke is.
+    const osg::ref_ptr<MediumVolume> box = new MediumVolume(medium);
+    box->setShape(MediumVolume::BOX);
+    root->addChild(box);
+    CHECK(convertGraph(root).scene->lights.size() == 1);
+    root->removeChild(tile);
+    CHECK(convertGraph(root).scene->lights.size() == 1);
+    root->addChild(tile);
     // A surface that has not enabled the light decides for the smoke, too.
     root->addChild(triangleGeometry());
     root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
     CHECK(convertGraph(root).scene->lights.empty());
+}
+
+TEST_CASE("volume tiles: the last surface beside smoke goes", "[bridge][volumes]")
+{
+    const osg::ref_ptr<osgVolume::VolumeTile> tile = ballTile();
+    const osg::ref_ptr<PhysicalMaterial> material = new PhysicalMaterial;
+    const osg::ref_ptr<osgRayTrace::Medium> medium = new osgRayTrace::Medium;
+    medium->setScattering({1.0f, 2.0f, 3.0f});
+    material->setInterior(medium);
+    tile->getOrCreateStateSet()->setAttribute(material);
+    const osg::ref_ptr<osg::LightSource> lamp = new osg::LightSource;
+    lamp->getLight()->setLightNum(3); // which no surface has enabled
+    const osg::ref_ptr<osg::Geometry> surface = triangleGeometry();
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(tile);
+    root->addChild(lamp);
+    root->addChild(surface);
+    LiveView view(root);
+    view.update();
+    const std::size_t before = view.scene()->lights.size();
+    root->removeChild(surface);
+    view.update();
+    LiveView fresh(root);
+    fresh.update();
+    CHECK(view.scene()->lights.size() == before + 1);
+    CHECK(fresh.scene()->lights.size() == before + 1);
 }
 
 TEST_CASE("volume tiles: what cannot be traced is left to OSG by name", "[bridge][volumes]")

@@ -30,6 +30,13 @@ def parseArguments(description, name):
     return options
 
 
+def needBlender():
+    """Ends the program, with 77, if there is no Blender."""
+    if not shutil.which("blender"):
+        print("skipped: there is no Blender; Debian has it in the package blender")
+        sys.exit(77)
+
+
 def inData(model):
     return os.path.join(HERE, "../../data", model)
 
@@ -114,12 +121,10 @@ def texts(values):
 def compare(options, scene, task, parts=None):
     """Prints the table for a model and its script in Blender. task: the script, what it wants beside
     the common task, and "ours", more arguments of osgraytrace. parts: by name, functions of the size
-    that return which pixels belong to a part of the picture. Returns the exit code: 0 done, 77 there
-    is no Blender; a program that fails ends all with 2."""
+    that return which pixels belong to a part of the picture. Returns the exit code 0; a program
+    that fails ends all with 2."""
     parts = parts or {}
-    if not shutil.which("blender"):
-        print("skipped: there is no Blender; Debian has it in the package blender")
-        return 77
+    needBlender()
     masks = [part(options.size) for part in parts.values()]
     names = ", ".join(["all", *parts])
     means = {}

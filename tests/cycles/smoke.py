@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT
 """See noise.py for the table. Needs Debian's python3-openvdb, which writes the file of smoke."""
 import os
-import subprocess
 import sys
 
 import noise
@@ -40,6 +39,7 @@ def write(file):
 
 
 OPTIONS = noise.parseArguments(__doc__, "smoke")
+noise.needBlender()
 try:
     import pyopenvdb
 except ImportError:
@@ -49,11 +49,10 @@ FOLDER = os.path.abspath(OPTIONS.out)
 VOLUME, SCENE, SKY = (os.path.join(FOLDER, name) for name in ("smoke.vdb", "smoke.osgb", "sky.hdr"))
 write(VOLUME)
 sky.write(SKY, sky.outdoors())
-subprocess.run(
+noise.run(
     ["osgconv", "-O", f"extinction={EXTINCTION}", VOLUME, SCENE],
+    SCENE + ".log",
     env=noise.libraries(OPTIONS),
-    stdout=subprocess.DEVNULL,
-    check=True,
 )
 TASK = {
     "script": "smokeInBlender.py",

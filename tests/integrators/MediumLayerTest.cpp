@@ -358,3 +358,30 @@ TEST_CASE("medium layer: volumes lie in it", "[integrators][statistics][volumes]
         }
     }
 }
+
+TEST_CASE("medium layer: beside volumes, a long way down through thin air is not cut",
+          "[integrators][volumes]")
+{
+    constexpr float kHeight = 1e5f; // at the density of the lower end, as many collisions
+    Medium medium;
+    medium.sigmaS = Vec3(1.0f);
+    SceneBuilder around;
+    setAtmosphere(around, medium, 2.0f * kHeight);
+    thinOut(around, 1.0f);
+    const MediumTable media(*around.scene, Vec3(-1.0f), Vec3(1.0f));
+    Scene scene;
+    scene.volumes.push_back(densityIn({-1, -1, 7}, {1, 1, 9}, ramp(4), mediumOf(0.0f, 0.0f)));
+    const GridTable table(scene, nullptr, nullptr, nullptr);
+    GridRay ray(table, Vec3(0, 0, kHeight), Vec3(0, 0, -1), 0.0f, kHeight);
+    ray.setAround(media[kOutside], {0.0f, kHeight});
+    Estimate shadow, left;
+    for (uint32_t k = 0; k < 4000; ++k)
+    {
+        NumberStream numbers(hash(k, 5u));
+        shadow.add(double(ray.transmittance(0.0f, kHeight, numbers).x));
+        left.add(double(ray.way(numbers).left.x));
+    }
+    CAPTURE(shadow.mean(), left.mean());
+    CHECK(shadow.agrees(std::exp(-1.0)));
+    CHECK(left.agrees(std::exp(-1.0)));
+}

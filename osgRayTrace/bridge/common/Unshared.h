@@ -1,4 +1,5 @@
-// Unshared.h - forgets in a cache what the application has let go of. Layer: bridge.
+// Unshared.h - forgets in a cache what the application has let go of, and what nobody asks for.
+// Layer: bridge.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -25,6 +26,13 @@ void eraseUnshared(std::map<Key, Entry>& entries, const ObjectOf& objectOf)
         const bool shared = !object || object->referenceCount() > held[object];
         entry = shared ? std::next(entry) : entries.erase(entry);
     }
+}
+
+/// Erases the entries whose member used is not this round.
+template <class Map> void eraseUnused(Map& entries, unsigned int round)
+{
+    for (auto entry = entries.begin(); entry != entries.end();)
+        entry = entry->second.used == round ? std::next(entry) : entries.erase(entry);
 }
 
 } // namespace osgRayTrace::engine

@@ -53,6 +53,27 @@ Box boxOf(const VertexBounds& bounds, const osg::Matrixd& engineFromLocal)
     return box;
 }
 
+/// Returns the box of an instance, as that of the box of its mesh.
+Box boxOf(const Mesh& mesh, const Affine& engineFromLocal)
+{
+    Vec3 low(kInfinity), high(-kInfinity);
+    for (const Vec3& p : mesh.positions)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    Box box;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Vec3d p(transformPoint(engineFromLocal,
+                                     Vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                                          corner & 4 ? high.z : low.z)));
+        box.low = glm::min(box.low, p);
+        box.high = glm::max(box.high, p);
+    }
+    return box;
+}
+
 struct PlacedUse
 {
     std::size_t geometry = 0, use = 0; ///< indices in the graph
@@ -230,26 +251,24 @@ void dropEnclosures(CollectedGraph& graph, const ConversionInput& input)
 bool mayEnclose(const Scene& scene, const VertexBounds& bounds, const osg::Matrixd& engineFromLocal,
                 Stamp since)
 {
-    Vec3d low(std::numeric_limits<double>::infinity()), high = -low;
-    for (int corner = 0; corner < 8; ++corner)
+    const Box box = boxOf(bounds, engineFromLocal);
+    const auto isAsked = [&](const Instance& instance)
+    { return instance.changed >= since && !scene.meshes[instance.mesh]->positions.empty(); };
+    const auto isFirstOutside = [&](const Instance& instance)
     {
-        const osg::Vec3d p = osg::Vec3d(corner & 1 ? bounds.high.x : bounds.low.x,
-                                        corner & 2 ? bounds.high.y : bounds.low.y,
-                                        corner & 4 ? bounds.high.z : bounds.low.z) *
-                             engineFromLocal;
-        low = glm::min(low, Vec3d(p.x(), p.y(), p.z()));
-        high = glm::max(high, Vec3d(p.x(), p.y(), p.z()));
-    }
-    const Vec3d margin = kEnclosureMargin * (high - low);
+        if (!isAsked(instance)) return false;
+        const Vec3d p(
+            transformPoint(instance.engineFromLocal, scene.meshes[instance.mesh]->positions[0]));
+        return !box.contains({p, p});
+    };
     const auto isOutside = [&](const Instance& instance)
     {
-        const Mesh& mesh = *scene.meshes[instance.mesh];
-        if (instance.changed < since || mesh.positions.empty()) return false;
-        const Vec3d p(transformPoint(instance.engineFromLocal, mesh.positions[0]));
-        return glm::any(glm::lessThan(p, low - margin)) ||
-               glm::any(glm::greaterThan(p, high + margin));
+        return isAsked(instance) &&
+               !box.contains(boxOf(*scene.meshes[instance.mesh], instance.engineFromLocal));
     };
-    return std::none_of(scene.instances.begin(), scene.instances.end(), isOutside);
+    const auto& instances = scene.instances; // mostly a look at one vertex of each is enough
+    return std::none_of(instances.begin(), instances.end(), isFirstOutside) &&
+           std::none_of(instances.begin(), instances.end(), isOutside);
 }
 
 void dropDoubtful(std::vector<Enclosure>& enclosures, const Scene& scene)

@@ -87,8 +87,8 @@ void countReplaced(const NumberedLight& light, ConversionReport& report)
     report.setPlace({});
 }
 
-/// Returns whether the scene has media that scatter and no surface, whose state could enable
-/// lights.
+/// Returns whether the scene has media that scatter and no surface but their boundaries: the state
+/// of a surface enables lights.
 bool hasMediaAlone(const Scene& scene, const LightSources& sources)
 {
     const auto scatters = [](const osgRayTrace::Medium* medium)
@@ -100,7 +100,15 @@ bool hasMediaAlone(const Scene& scene, const LightSources& sources)
         std::any_of(sources.tiles.begin(), sources.tiles.end(),
                     [&](const CollectedTile& source)
                     { return source.material && scatters(source.material->getInterior()); });
-    return scene.instances.empty() && (inAir || inTiles);
+    bool inBodies = false;
+    for (const Instance& instance : scene.instances)
+    {
+        if (scene.meshes[instance.mesh]->triangles.empty()) continue; // it was removed
+        const Material& material = scene.materials[instance.material];
+        if (!isInterface(material)) return false;
+        inBodies = inBodies || material.detail->interior.sigmaS != Vec3(0.0f);
+    }
+    return inAir || inTiles || inBodies;
 }
 
 /// Adds lights as OpenGL keeps them: by number, the last one set stays, and a light that no surface

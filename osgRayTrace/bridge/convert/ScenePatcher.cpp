@@ -137,7 +137,7 @@ bool ScenePatcher::encloseStill(const std::vector<MovedUse>& moved)
 {
     std::vector<Enclosure>& enclosures = _convertedGraph.subtrees.enclosures;
     enclosures.erase(std::remove_if(enclosures.begin(), enclosures.end(),
-                                    [](const Enclosure& one) // which the graph no longer has
+                                    [](const Enclosure& one) // that nobody else holds
                                     { return one.geometry->referenceCount() == 1; }),
                      enclosures.end());
     const Vec3d& origin = _scene->origin;

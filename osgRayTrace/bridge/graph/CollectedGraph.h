@@ -83,8 +83,8 @@ struct CollectedGeometry
     }
 };
 
-/// Names a use whose proxy is left out because it encloses the scene, or the largest proxy that may
-/// come to enclose it.
+/// Names a use whose proxy is left out because it encloses the scene, or the largest of all uses if
+/// it is a proxy that may come to enclose it.
 struct Enclosure
 {
     osg::ref_ptr<const osg::Geometry> geometry;
@@ -160,7 +160,7 @@ struct CollectedGraph
     std::optional<osg::Vec4>
         clearColor;     ///< colour of the last osg::ClearNode, if ConversionInput::rasterizesRest
     bool paged = false; ///< see ConversionResult
-    std::vector<Enclosure> enclosures;        ///< what has been dropped of geometries
+    std::vector<Enclosure> enclosures;        ///< dropped from geometries, or may be
     bool hasProxies = false;                  ///< some use is a proxy
     RasterizedParts rasterized;               ///< parts for OSG, if ConversionInput::rasterizesRest
     NodeTree paths;                           ///< paths to pick, if ConversionInput::picks

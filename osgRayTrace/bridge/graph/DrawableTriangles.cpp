@@ -9,7 +9,6 @@
 #include "osgRayTrace/bridge/geometry/PrimitiveModes.h"
 #include "osgRayTrace/scene/Mesh.h"
 
-#include <iterator>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -205,13 +204,8 @@ osg::Geometry& DrawableTriangles::chosen(const osg::Node& node, std::size_t numb
 
 void DrawableTriangles::end()
 {
-    const auto forget = [this](auto& copies)
-    {
-        for (auto copy = copies.begin(); copy != copies.end();)
-            copy = copy->second.used == _round ? std::next(copy) : copies.erase(copy);
-    };
-    forget(_copies);
-    forget(_chosen);
+    eraseUnused(_copies, _round);
+    eraseUnused(_chosen, _round);
     isoSurfaces.end();
     mediumBoxes.end();
 }
@@ -222,6 +216,7 @@ void DrawableTriangles::dropUnshared()
     eraseUnshared(_copies, node);
     eraseUnshared(_chosen, node);
     isoSurfaces.dropUnshared();
+    mediumBoxes.dropUnshared();
 }
 
 uint64_t DrawableTriangles::hashOf(const osg::Drawable& drawable)

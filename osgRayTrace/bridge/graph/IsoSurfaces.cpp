@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace osgRayTrace::engine
 {
@@ -169,8 +168,7 @@ IsoSurfaces::Result IsoSurfaces::of(const osgVolume::VolumeTile& tile, bool hasM
 
 void IsoSurfaces::end()
 {
-    for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = entry->second.used == _round ? std::next(entry) : _entries.erase(entry);
+    eraseUnused(_entries, _round);
 }
 
 void IsoSurfaces::dropUnshared()

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/bridge/graph/MediumBoxes.h"
 
+#include "osgRayTrace/bridge/common/Unshared.h"
+
 #include <osgRayTrace/PhysicalMaterial>
 
 #include <osg/Program>
-
-#include <iterator>
 
 namespace osgRayTrace::engine
 {
@@ -77,8 +77,12 @@ const osg::Geometry* MediumBoxes::of(const MediumVolume& volume)
 
 void MediumBoxes::end()
 {
-    for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = entry->second.used == _round ? std::next(entry) : _entries.erase(entry);
+    eraseUnused(_entries, _round);
+}
+
+void MediumBoxes::dropUnshared()
+{
+    eraseUnshared(_entries, [](const Entry& entry) { return entry.volume.get(); });
 }
 
 } // namespace osgRayTrace::engine

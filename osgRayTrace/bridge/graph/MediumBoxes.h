@@ -26,6 +26,9 @@ public:
     /// Forgets the volumes that were not asked for.
     void end();
 
+    /// Forgets the volumes that nobody else holds.
+    void dropUnshared();
+
 private:
     struct Entry
     {

@@ -139,10 +139,10 @@ void GraphCollector::collectIsoSurface(const osgVolume::VolumeTile& tile, bool h
     --_untracked;
 }
 
-/// Collects the box of the volume at the end of the path. Nothing picks it, and OSG never draws it.
+/// Collects the box of the volume at the end of the path. Nothing picks it, and OSG never draws it,
+/// so that no leaf of a cull traversal stands for it.
 void GraphCollector::collectBox(const MediumVolume& volume)
 {
-    if (_lightsOnly) return;
     const osg::Geometry* box = _triangles.mediumBoxes.of(volume);
     if (!box)
     {

@@ -268,8 +268,7 @@ const osg::Geometry& SoftwareVertices::posed(osg::Geometry& geometry, const osg:
 
 void SoftwareVertices::end()
 {
-    for (auto copy = _copies.begin(); copy != _copies.end();)
-        copy = copy->second.used == _round ? std::next(copy) : _copies.erase(copy);
+    eraseUnused(_copies, _round);
 }
 
 void SoftwareVertices::dropUnshared()
