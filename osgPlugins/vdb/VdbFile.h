@@ -1,9 +1,9 @@
 // VdbFile.h - the header of an OpenVDB file and of its grids. Layer: osgPlugins.
 // SPDX-License-Identifier: MIT
 //
-// The format is that of OpenVDB's sources [OpenVDB22], versions 222 to 225: the header, metadata, and
-// for each grid a descriptor with the places of its parts. A grid has its compression, metadata, a
-// transform and a tree.
+// The format is that of OpenVDB's sources [OpenVDB22], versions 222 to 225: the header, metadata,
+// and for each grid a descriptor with the places of its parts. A grid has its compression,
+// metadata, a transform and a tree.
 #pragma once
 
 #include "osgPlugins/vdb/VdbBytes.h"

@@ -94,9 +94,9 @@ struct RenderProgress
     IntegratorKind integrator = IntegratorKind::Automatic;
     int passes = 0;       ///< complete passes
     double seconds = 0.0; ///< time spent in passes since the restart
-    /// Last estimate of the image's error. It is made after each pass if the rule asks for an error.
-    /// If there is a keepGoing and no nextPass, it is that of 4 / 5 of the passes at least, and of all
-    /// at the end.
+    /// Last estimate of the image's error. It is made after each pass if the rule asks for an
+    /// error. If there is a keepGoing and no nextPass, it is that of 4 / 5 of the passes at least,
+    /// and of all at the end.
     ErrorEstimate error;
     RayCounts rays;
     MediumNote mediumNote = MediumNote::None;
