@@ -99,8 +99,13 @@ TEST_CASE("fuzz: a damaged .vdb file gives an error or a tile, and no absurd all
                         if (!std::isfinite(values[i])) FAIL("value " << i << " is " << values[i]);
                     REQUIRE(tile->getLocator()->getTransform().valid());
                 });
-    // The damage is neither always fatal nor never, and there are many ways to be wrong.
+    // The damage is neither always fatal nor never, and there are many ways to be wrong. Without
+    // blosc most of the files cannot be read at all.
+#ifdef OSGRAYTRACE_TEST_BLOSC
     CHECK(tiles > seedCount(kFiles) / 25);
+#else
+    CHECK(tiles > seedCount(kFiles) / 100);
+#endif
     CHECK(errors > seedCount(kFiles) / 4);
     CHECK(messages.size() > 8);
 }
