@@ -6,6 +6,7 @@
 #include "osgRayTrace/scene/SceneTraits.h"
 
 #include "tests/Catch.h"
+#include "tests/EngineScenes.h"
 #include "tests/bridge/Graphs.h"
 #include "tests/bridge/LiveGraph.h"
 
@@ -254,6 +255,44 @@ TEST_CASE("medium volume: a box is a closed boundary that is not seen", "[bridge
     CHECK(countOf(convertGraph(root), "skipped.medium-volume") == 2);
     volume->setBox({0, 0, 0, 1, 1, std::numeric_limits<float>::infinity()});
     CHECK(volume->getBox().zMax() == 0.0f);
+}
+
+TEST_CASE("medium volume: a box has its own medium, and that of the scene around it", "[bridge]")
+{
+    // A lamp of radiance 1 behind 7 of haze and 3 of what is in the box.
+    const osg::ref_ptr<osg::Geometry> lamp = osg::createTexturedQuadGeometry(
+        osg::Vec3(10, -5, -5), osg::Vec3(0, 0, 10), osg::Vec3(0, 10, 0));
+    const osg::ref_ptr<PhysicalMaterial> shining = new PhysicalMaterial;
+    shining->setBaseColor({0.0f, 0.0f, 0.0f});
+    shining->setEmission({1.0f, 1.0f, 1.0f});
+    lamp->getOrCreateStateSet()->setAttribute(shining);
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(lamp);
+    const auto add = [&](const osg::Vec3& absorption)
+    {
+        const osg::ref_ptr<ApiMedium> medium = new ApiMedium;
+        medium->setAbsorption(absorption);
+        const osg::ref_ptr<MediumVolume> volume = new MediumVolume(medium);
+        root->addChild(volume);
+        return volume;
+    };
+    add({0.1f, 0.2f, 0.0f})->setRadius(100.0f);
+    const osg::ref_ptr<MediumVolume> box = add({0.3f, 0.0f, 0.2f});
+    box->setShape(MediumVolume::BOX);
+    box->setBox({2, -1, -1, 5, 1, 1});
+    const ConversionResult result = convertGraph(root);
+    const auto traced = TracedScene::build(result.scene, std::make_shared<Workers>(1), nullptr);
+    const View view =
+        engine::test::perspectiveView({0.0, 0.1, 0.2}, {1.0, 0.1, 0.2}, {0, 0, 1}, 0.1, 4, 4);
+    for (const IntegratorKind kind : {IntegratorKind::Path, IntegratorKind::Whitted})
+    {
+        const Vec3 seen =
+            engine::test::render(traced, view, engine::test::optionsOf(kind), 1).mean();
+        CAPTURE(int(kind), seen.x, seen.y, seen.z);
+        CHECK(seen.x == Approx(std::exp(-0.1 * 7 - 0.3 * 3)).epsilon(1e-4));
+        CHECK(seen.y == Approx(std::exp(-0.2 * 7)).epsilon(1e-4));
+        CHECK(seen.z == Approx(std::exp(-0.2 * 3)).epsilon(1e-4));
+    }
 }
 
 TEST_CASE("medium volume: edits are seen", "[bridge]")
