@@ -258,7 +258,7 @@ public:
     bool read(osgDB::InputStream& stream, osg::Object& object) override
     {
         if (!readsTag(stream, _name, kBinaryName)) return true;
-        return readWords(stream, static_cast<PhysicalMaterial&>(object));
+        return readDetails(stream, static_cast<PhysicalMaterial&>(object));
     }
 
     bool write(osgDB::OutputStream& stream, const osg::Object& object) override
@@ -266,11 +266,7 @@ public:
         const auto& material = static_cast<const PhysicalMaterial&>(object);
         const Words words = wordsOf(material);
         if (words.empty()) return true;
-        writeTag(stream, _name, kBinaryName);
-        stream.writeSize(words.size());
-        stream << stream.BEGIN_BRACKET << std::endl;
-        for (const auto& [name, word] : words)
-            stream << name << word << std::endl;
+        writeWords(stream, _name, kBinaryName, words);
         for (const auto& [name, word] : words)
             if (isTexture(name))
                 stream.writeObject(material.getTexture(useOf(textureOf(name, ""))));
@@ -279,16 +275,11 @@ public:
     }
 
 private:
-    static bool readWords(osgDB::InputStream& stream, PhysicalMaterial& material)
+    static bool readDetails(osgDB::InputStream& stream, PhysicalMaterial& material)
     {
-        const unsigned int count = stream.readSize();
-        stream >> stream.BEGIN_BRACKET;
         std::vector<std::string> textures;
-        for (unsigned int i = 0; i < count && !stream.getException(); ++i)
+        for (const auto& [name, word] : readWords(stream))
         {
-            std::string name, word;
-            stream >> name >> word;
-            if (stream.getException()) break;
             if (isTexture(name))
                 textures.push_back(name);
             else if (!setWord(material, name, word))

@@ -48,14 +48,8 @@ public:
     {
         if (!readsTag(stream, _name, kBinaryName)) return true;
         auto& volume = static_cast<MediumVolume&>(object);
-        const unsigned int count = stream.readSize();
-        stream >> stream.BEGIN_BRACKET;
-        for (unsigned int i = 0; i < count && !stream.getException(); ++i)
-        {
-            std::string name, word;
-            stream >> name >> word;
-            if (!stream.getException()) setWord(volume, name, word);
-        }
+        for (const auto& [name, word] : readWords(stream))
+            setWord(volume, name, word);
         stream >> stream.END_BRACKET;
         return !stream.getException();
     }
@@ -64,11 +58,7 @@ public:
     {
         const Words words = wordsOf(static_cast<const MediumVolume&>(object));
         if (words.empty()) return true;
-        writeTag(stream, _name, kBinaryName);
-        stream.writeSize(words.size());
-        stream << stream.BEGIN_BRACKET << std::endl;
-        for (const auto& [name, word] : words)
-            stream << name << word << std::endl;
+        writeWords(stream, _name, kBinaryName, words);
         stream << stream.END_BRACKET << std::endl;
         return true;
     }

@@ -73,10 +73,29 @@ bool readsTag(osgDB::InputStream& stream, const std::string& property, std::stri
     return true;
 }
 
-void writeTag(osgDB::OutputStream& stream, const std::string& property, std::string_view tag)
+Words readWords(osgDB::InputStream& stream)
+{
+    const unsigned int count = stream.readSize();
+    stream >> stream.BEGIN_BRACKET;
+    Words words;
+    for (unsigned int i = 0; i < count && !stream.getException(); ++i)
+    {
+        std::string name, word;
+        stream >> name >> word;
+        if (!stream.getException()) words.emplace_back(std::move(name), std::move(word));
+    }
+    return words;
+}
+
+void writeWords(osgDB::OutputStream& stream, const std::string& property, std::string_view tag,
+                const Words& words)
 {
     if (stream.isBinary())
         stream << std::string(tag);
     else
         stream << stream.PROPERTY(property.c_str());
+    stream.writeSize(words.size());
+    stream << stream.BEGIN_BRACKET << std::endl;
+    for (const auto& [name, word] : words)
+        stream << name << word << std::endl;
 }

@@ -29,5 +29,10 @@ std::vector<float> valuesOf(const std::string& word, std::size_t count);
 /// where it is.
 bool readsTag(osgDB::InputStream& stream, const std::string& property, std::string_view tag);
 
-/// Begins words that readsTag() finds.
-void writeTag(osgDB::OutputStream& stream, const std::string& property, std::string_view tag);
+/// Reads the words behind what readsTag() has found, and leaves the stream before the bracket that
+/// closes them. If the stream fails they are those before.
+Words readWords(osgDB::InputStream& stream);
+
+/// Writes words that readsTag() finds and readWords() reads. The caller closes their bracket.
+void writeWords(osgDB::OutputStream& stream, const std::string& property, std::string_view tag,
+                const Words& words);

@@ -1,4 +1,4 @@
-// ApplicationDrawingTest.cpp - rigs, lights, handles and overlays as applications draw them.
+// ApplicationDrawingTest.cpp - rigs, lights, handles, overlays and media as applications draw them.
 // Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "CullNodes.h"
@@ -6,6 +6,8 @@
 #include "RawOverlay.h"
 #include "tests/Catch.h"
 
+#include <osgRayTrace/Medium>
+#include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/RayIntersector>
 
 #include <osg/Program>
@@ -218,4 +220,25 @@ TEST_CASE("application drawing: raw OpenGL over the picture", "[gl][cull]")
     checkPicture(view);
     if (reason) CHECK(view.count(reason) == 1);
     CHECK(view.count("converted.instance") == 2);
+}
+
+TEST_CASE("cull content: a box of haze below a callback, which nothing draws", "[gl][cull]")
+{
+    const osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->addChild(raised(plainSquare(0.8f).get(), 0.5f));
+    group->setCullCallback(new StatePusher(unlitColor(kRed), unlitColor(kRed)));
+    const auto triangles = [&]
+    {
+        View view(group.get());
+        view.viewer.frames(3);
+        CHECK(view.count("converted.culled") == 1);
+        return view.scene->getDrawable()->getStatistics().triangles;
+    };
+    const auto before = triangles();
+    const osg::ref_ptr<Medium> haze = new Medium;
+    haze->setScattering({0.1f, 0.1f, 0.1f});
+    const osg::ref_ptr<MediumVolume> box = new MediumVolume(haze.get());
+    box->setShape(MediumVolume::BOX);
+    group->addChild(box.get());
+    CHECK(triangles() == before + 12);
 }

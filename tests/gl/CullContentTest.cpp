@@ -5,8 +5,6 @@
 #include "CullView.h"
 #include "tests/Catch.h"
 
-#include <osgRayTrace/Medium>
-#include <osgRayTrace/MediumVolume>
 #include <osgRayTrace/RayIntersector>
 
 #include <osg/BlendFunc>
@@ -213,22 +211,6 @@ TEST_CASE("cull content: state that a callback pushes", "[gl][cull]")
         checkPicture(view);
         CHECK(view.count("not-traced.projection") == 1);
         CHECK(view.count("converted.culled") == 1);
-    }
-    SECTION("a box of haze, which nothing draws, is there")
-    {
-        const auto triangles = [&]
-        {
-            View view(group.get());
-            view.viewer.frames(3);
-            return view.scene->getDrawable()->getStatistics().triangles;
-        };
-        const auto before = triangles();
-        const osg::ref_ptr<Medium> haze = new Medium;
-        haze->setScattering({0.1f, 0.1f, 0.1f});
-        const osg::ref_ptr<MediumVolume> box = new MediumVolume(haze.get());
-        box->setShape(MediumVolume::BOX);
-        group->addChild(box.get());
-        CHECK(triangles() == before + 12);
     }
     SECTION("a light is left to OSG")
     {

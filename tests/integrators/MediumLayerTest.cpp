@@ -5,6 +5,7 @@
 #include "osgRayTrace/media/MediumWay.h"
 
 #include "tests/Statistics.h"
+#include "tests/integrators/FlightMeans.h"
 #include "tests/integrators/VolumeScenes.h"
 
 #include <functional>
@@ -326,26 +327,7 @@ TEST_CASE("medium layer: volumes lie in it", "[integrators][statistics][volumes]
         ray.setAround(media[kOutside], {0.0f, float(r.length)});
         // The ramp is along x, of which the ray goes cos a length.
         const double ramped = rampDepth(40) * 2.0 / direction.x;
-        std::array<Estimate, 3> left, ways, shadows, collided;
-        for (uint32_t k = 0; k < 40000; ++k)
-        {
-            NumberStream numbers(hash(k, 3u));
-            const GridFlight flight = ray.flight(Vec3(0.5f, 0.3f, 0.2f), numbers);
-            const GridWay way = ray.way(numbers);
-            const Vec3 shadow = ray.transmittance(0.0f, float(r.length), numbers);
-            const Scatterers here =
-                flight.collides ? ray.scatterersAt(flight.distance) : Scatterers();
-            Vec3 sum(0.0f);
-            for (int i = 0; i < here.count; ++i)
-                sum += here.sigmaS[std::size_t(i)];
-            for (std::size_t c = 0; c < 3; ++c)
-            {
-                left[c].add(flight.collides ? 0.0 : double(flight.weight[int(c)]));
-                collided[c].add(double(flight.weight[int(c)] * sum[int(c)]));
-                ways[c].add(double(way.left[int(c)]));
-                shadows[c].add(double(shadow[int(c)]));
-            }
-        }
+        const auto [left, collided, ways, shadows] = flightMeans(ray, float(r.length));
         for (std::size_t c = 0; c < 3; ++c)
         {
             const double depth = layer.depth(origin, direction, r.length) + ramped;

@@ -3,6 +3,7 @@
 #include "osgRayTrace/media/GridMarch.h"
 #include "osgRayTrace/media/GridRay.h"
 
+#include "tests/integrators/FlightMeans.h"
 #include "tests/integrators/VolumeScenes.h"
 
 using namespace osgRayTrace::engine;
@@ -43,26 +44,7 @@ TEST_CASE("volumes: flights have the transmittance of closed forms, in all chann
     {
         GridRay filled = ray;
         if (inAir) filled.setAround(media[kOutside], {0.5f, 3.0f});
-        std::array<Estimate, 3> left, ways, shadows, collided;
-        for (uint32_t k = 0; k < 40000; ++k)
-        {
-            NumberStream numbers(hash(k, 3u));
-            const GridFlight flight = filled.flight(Vec3(0.5f, 0.3f, 0.2f), numbers);
-            const GridWay way = filled.way(numbers);
-            const Vec3 shadow = filled.transmittance(0.0f, 9.0f, numbers);
-            const Scatterers here =
-                flight.collides ? filled.scatterersAt(flight.distance) : Scatterers();
-            Vec3 sum(0.0f);
-            for (int i = 0; i < here.count; ++i)
-                sum += here.sigmaS[std::size_t(i)];
-            for (std::size_t c = 0; c < 3; ++c)
-            {
-                left[c].add(flight.collides ? 0.0 : double(flight.weight[int(c)]));
-                collided[c].add(double(flight.weight[int(c)] * sum[int(c)]));
-                ways[c].add(double(way.left[int(c)]));
-                shadows[c].add(double(shadow[int(c)]));
-            }
-        }
+        const auto [left, collided, ways, shadows] = flightMeans(filled, 9.0f);
         for (std::size_t c = 0; c < 3; ++c)
         {
             const double depth = double(sigma[int(c)]) * rampDepth(40) + (inAir ? 0.3 * 2.5 : 0.0);

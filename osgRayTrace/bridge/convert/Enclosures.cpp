@@ -3,6 +3,7 @@
 #include "osgRayTrace/bridge/convert/Enclosures.h"
 
 #include "osgRayTrace/bridge/geometry/GeometryConverter.h"
+#include "osgRayTrace/shading/EmissiveMesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ Box boxOf(const VertexBounds& bounds, const osg::Matrixd& engineFromLocal)
     return box;
 }
 
-/// Returns the box of an instance, as that of the box of its mesh.
+/// Returns the box of an instance: that around the placed box of its mesh.
 Box boxOf(const Mesh& mesh, const Affine& engineFromLocal)
 {
     Vec3 low(kInfinity), high(-kInfinity);
@@ -62,16 +63,8 @@ Box boxOf(const Mesh& mesh, const Affine& engineFromLocal)
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    Box box;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-        const Vec3d p(transformPoint(engineFromLocal,
-                                     Vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
-                                          corner & 4 ? high.z : low.z)));
-        box.low = glm::min(box.low, p);
-        box.high = glm::max(box.high, p);
-    }
-    return box;
+    placeBox(engineFromLocal, low, high);
+    return {Vec3d(low), Vec3d(high)};
 }
 
 struct PlacedUse
