@@ -7,14 +7,24 @@ namespace osgRayTrace::engine
 
 LightBounds joined(const LightBounds& a, const LightBounds& b)
 {
-    return joinedBounds(a, b);
+    return boundsOf(joinedBounds(plainOf(a), plainOf(b)));
 }
 
 LightNode nodeOf(const LightBounds& bounds, uint32_t next)
 {
-    LightNode node;
-    setNode(node, bounds, next);
-    return node;
+    const PlainBounds b = plainOf(bounds);
+    const PlainVec3 centre = centreOf(b);
+    const float radius = radiusAround(centre, b);
+    return {{centre.x, centre.y, centre.z},
+            radius,
+            {b.axis.x, b.axis.y, b.axis.z},
+            b.cosCone,
+            sineOf(b.cosCone),
+            b.cosEmission,
+            b.intensity,
+            {b.falloff.x, b.falloff.y, b.falloff.z},
+            next,
+            (b.range + radius) * kReachSlack};
 }
 
 } // namespace osgRayTrace::engine

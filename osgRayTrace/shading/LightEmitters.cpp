@@ -331,7 +331,7 @@ LightBounds boundsOf(const LightEmitter& emitter)
 {
     if (emitter.isPoint()) return pointBounds(emitter);
     if (emitter.isMesh()) return meshBounds(emitter);
-    return areaBounds(emitter);
+    return boundsOf(areaBounds(emitter));
 }
 
 } // namespace osgRayTrace::engine

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightTree.h"
 
-#include "osgRayTrace/shading/LightNodes.h"
-
 #include <algorithm>
 
 namespace osgRayTrace::engine
@@ -75,11 +73,10 @@ std::shared_ptr<const LightTree> LightTree::after(const LightTree* previous,
 void LightTree::setNodes(const EmitterSource& source, const Workers* workers)
 {
     _arrays = _spare->take(_pairs->order.size());
-    const std::vector<LightPairs::Subtree>& subtrees = _pairs->subtrees;
+    const std::vector<LightSubtree>& subtrees = _pairs->subtrees;
     std::vector<Joined> parts(subtrees.size());
-    forEachPart(workers, subtrees.size(), 2,
-                [&](std::size_t first, std::size_t last)
-                { setSubtrees(&subtrees[first], last - first, source, &parts[first]); });
+    forEachPart(workers, subtrees.size(), 1,
+                [&](std::size_t k, std::size_t) { parts[k] = setSubtree(subtrees[k], source); });
     JoinedPairs joinedPairs;
     for (std::size_t k = 0; k < parts.size(); ++k)
     {
@@ -101,89 +98,18 @@ void LightTree::setNodes(const EmitterSource& source, const Workers* workers)
     }
 }
 
-/// Joins the bounds of a subtree's pairs from the last to the first.
-class LightTree::SubtreeBounds
+LightTree::Joined LightTree::setSubtree(const LightSubtree& subtree, const EmitterSource& source)
 {
-public:
-    SubtreeBounds(const LightPairs& pairs, const LightPairs::Subtree& subtree, LightArrays& arrays)
-        : _children(pairs.children.data() + 2 * std::size_t(subtree.pair)),
-          _nodes(arrays.nodes.data() + 2 * std::size_t(subtree.pair)),
-          _emitters(arrays.emitters.data()),
-          _firstPair(subtree.pair),
-          _left(subtree.pairs),
-          _pairs(subtree.pairs)
-    {
-    }
-
-    /// Returns the number of pairs that next() has not set yet.
-    uint32_t left() const { return _left; }
-
-    OSGRAYTRACE_INLINE void next()
-    {
-        const uint32_t k = --_left;
-        const uint32_t first = _children[2 * k], second = _children[2 * k + 1];
-        LightNode* const nodes = _nodes + 2 * k;
-        const LightBounds a = boundsBelow(first), b = boundsBelow(second);
-        setNode(nodes[0], a, first);
-        setNode(nodes[1], b, second);
-        _spread += static_cast<double>(a.intensity) * nodes[0].radius;
-        _spread += static_cast<double>(b.intensity) * nodes[1].radius;
-        _pairs[k] = joinedBounds(a, b);
-    }
-
-    const LightBounds& bounds() const { return _pairs[0]; }
-    double spread() const { return _spread; }
-
-private:
-    OSGRAYTRACE_INLINE LightBounds boundsBelow(uint32_t next) const
-    {
-        if (!(next & LightPairs::kLeaf)) return _pairs[next - _firstPair];
-        const LightEmitter& emitter = _emitters[next & ~LightPairs::kLeaf];
-        return emitter.isPoint() || emitter.isMesh() ? boundsOf(emitter) : areaBounds(emitter);
-    }
-
-    const uint32_t* _children;
-    LightNode* _nodes;
-    const LightEmitter* _emitters;
-    uint32_t _firstPair, _left;
-    double _spread = 0.0;
-    std::vector<LightBounds> _pairs;
-};
-
-LightTree::Joined LightTree::setEmitters(const LightPairs::Subtree& subtree,
-                                         const EmitterSource& source)
-{
+    LightEmitter* const emitters = _arrays.emitters.data();
+    source(&_pairs->order[subtree.leaf], subtree.pairs + 1, emitters + subtree.leaf);
     Joined all;
-    source(&_pairs->order[subtree.leaf], subtree.pairs + 1, _arrays.emitters.data() + subtree.leaf);
     for (uint32_t k = 0; k <= subtree.pairs; ++k)
-        all.addLeaf(_arrays.emitters[subtree.leaf + k]);
+        all.addLeaf(emitters[subtree.leaf + k]);
+    const SubtreeBounds joined =
+        engine::setNodes(subtree, emitters, _pairs->children, _arrays.nodes.data());
+    all.bounds = joined.bounds;
+    all.spread = joined.spread;
     return all;
-}
-
-/// A pair waits for the one before it, as that is often below it. Pairs of two subtrees take turns,
-/// and the processor works on both.
-void LightTree::setSubtrees(const LightPairs::Subtree* subtrees, std::size_t count,
-                            const EmitterSource& source, Joined* joined)
-{
-    for (std::size_t k = 0; k < count; ++k)
-        joined[k] = setEmitters(subtrees[k], source);
-    SubtreeBounds first(*_pairs, subtrees[0], _arrays);
-    const LightPairs::Subtree none;
-    SubtreeBounds second(*_pairs, count > 1 ? subtrees[1] : none, _arrays);
-    while (first.left() > 0 && second.left() > 0)
-    {
-        first.next();
-        second.next();
-    }
-    for (SubtreeBounds* rest : {&first, &second})
-        while (rest->left() > 0)
-            rest->next();
-    for (std::size_t k = 0; k < count; ++k)
-    {
-        const SubtreeBounds& bounds = k == 0 ? first : second;
-        joined[k].bounds = bounds.bounds();
-        joined[k].spread = bounds.spread();
-    }
 }
 
 LightTree::Joined LightTree::setTop(uint32_t pair, const EmitterSource& source,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/shading/LightEmitters.h"
+#include "osgRayTrace/shading/LightSubtree.h"
 
 #include <memory>
 #include <mutex>
@@ -19,20 +20,13 @@ struct LightPairs
 {
     static constexpr uint32_t kLeaf = 0x80000000u;
 
-    /// A pair with all that is below it.
-    struct Subtree
-    {
-        uint32_t pair = 0, pairs = 0; ///< the number of the pair, and how many there are
-        uint32_t leaf = 0;            ///< the first of pairs + 1 leaves
-    };
-
-    std::vector<uint32_t> children;  ///< two for each pair; pair 0 is the root's
-    std::vector<uint32_t> order;     ///< the emitters in the order of the leaves
-    std::vector<uint32_t> numbers;   ///< by emitter: its leaf
-    std::vector<uint32_t> parents;   ///< by pair: the node above it; kInvalid at the root
-    std::vector<uint32_t> leafNodes; ///< by leaf: its node
-    std::vector<Subtree> subtrees;   ///< disjoint ones, which threads work on at once
-    std::vector<uint32_t> top;       ///< the pairs above them, each after its parent
+    std::vector<uint32_t> children;     ///< two for each pair; pair 0 is the root's
+    std::vector<uint32_t> order;        ///< the emitters in the order of the leaves
+    std::vector<uint32_t> numbers;      ///< by emitter: its leaf
+    std::vector<uint32_t> parents;      ///< by pair: the node above it; kInvalid at the root
+    std::vector<uint32_t> leafNodes;    ///< by leaf: its node
+    std::vector<LightSubtree> subtrees; ///< disjoint ones, which threads work on at once
+    std::vector<uint32_t> top;          ///< the pairs above them, each after its parent
 };
 
 /// Returns a shape for at least two emitters: each pair parts the emitters of a node where the sum
@@ -146,10 +140,7 @@ private:
     using JoinedPairs = std::unordered_map<uint32_t, Joined>;
 
     void setNodes(const EmitterSource& source, const Workers* workers);
-    class SubtreeBounds;
-    Joined setEmitters(const LightPairs::Subtree& subtree, const EmitterSource& source);
-    void setSubtrees(const LightPairs::Subtree* subtrees, std::size_t count,
-                     const EmitterSource& source, Joined* joined);
+    Joined setSubtree(const LightSubtree& subtree, const EmitterSource& source);
     Joined setTop(uint32_t pair, const EmitterSource& source, const JoinedPairs& below);
 
     std::shared_ptr<const LightPairs> _pairs;

@@ -30,7 +30,7 @@ constexpr std::size_t kLongestAxisOnly = 4096;
 constexpr int kMostUneven = 40;
 
 /// A node of no more emitters is one piece of work.
-constexpr std::size_t kMostInSubtree = 4096;
+constexpr std::size_t kMostInSubtree = LightSubtree::kMostPairs + 1;
 
 /// The part of an emitter's bounds that the build reads.
 struct BuildEmitter
@@ -128,10 +128,16 @@ public:
             level = std::move(next);
         }
         for (const Node& node : small)
-            _pairs.subtrees.push_back({node.pair, static_cast<uint32_t>(node.end - node.begin - 1),
-                                       static_cast<uint32_t>(node.begin)});
+            _pairs.subtrees.push_back({node.pair,
+                                       static_cast<uint32_t>(node.end - node.begin - 1),
+                                       static_cast<uint32_t>(node.begin),
+                                       {}});
         forEachPart(_workers, small.size(), 1,
-                    [&](std::size_t k, std::size_t) { addBelow(small[k]); });
+                    [&](std::size_t k, std::size_t)
+                    {
+                        addBelow(small[k]);
+                        _pairs.subtrees[k].setTurns(_pairs.children);
+                    });
         for (std::size_t i = 0; i < _emitters.size(); ++i)
         {
             _pairs.order[i] = _emitters[i].index;
