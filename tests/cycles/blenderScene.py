@@ -52,7 +52,7 @@ def diffuse(name, color):
 
 def addLamp(view, corner, u, v, radiance, seen=False):
     """Adds a lamp that emits to one side, -z of its own. Its radiance is its power over 4 and its
-    area. seen: the camera sees it."""
+    area. seen: the camera sees it. Returns its object."""
     corner, u, v = (turnOf(view) @ Vector(it) for it in (corner, u, v))
     x, z = u.normalized(), -u.cross(v).normalized()
     lamp = bpy.data.lights.new("lamp", "AREA")
@@ -65,6 +65,7 @@ def addLamp(view, corner, u, v, radiance, seen=False):
     placed.matrix_world = Matrix.Translation(corner + (u + v) / 2) @ axes
     placed.visible_camera = seen
     bpy.context.scene.collection.objects.link(placed)
+    return placed
 
 
 def addCamera(view):

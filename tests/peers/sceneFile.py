@@ -1,0 +1,194 @@
+# sceneFile.py - reads the surfaces, lamps and view of an .osgt file of ours, for other renderers,
+# and writes such a file.
+# SPDX-License-Identifier: MIT
+"""A scene is a dictionary: "view" has eye, center, up and fovy [degrees]; "parts" is a list of
+dictionaries with points (n x 3), triangles (m x 3), normals (n x 3, or None: flat) and material;
+"lamps" is a list of corner, u, v and radiance. A material has kind, which is "diffuse", "metal" or
+"glass", color, and roughness (metal) or ior (glass). Lengths and coordinates are the file's, with
+all transforms applied."""
+import numpy
+
+
+def parse(text):
+    """Returns the blocks of a file: lists of (words, block or None)."""
+    stack = [[]]
+    for line in text.splitlines():
+        words = line.split()
+        if not words or words[0].startswith("#"):
+            continue
+        if words == ["}"]:
+            stack.pop()
+        elif words[-1] == "{":
+            block = []
+            stack[-1].append((words[:-1], block))
+            stack.append(block)
+        else:
+            stack[-1].append((words, None))
+    return stack[0]
+
+
+def field(block, name, default=None):
+    """Returns the words of a field, as numbers."""
+    for words, _ in block:
+        if words[0] == name:
+            return numpy.array([float(word) for word in words[1:]])
+    return None if default is None else numpy.array(default, float)
+
+
+def inner(block, name):
+    """Returns the blocks within the block of a field: (class, block)."""
+    found = [it for words, it in block if words[0] == name and it is not None]
+    return [(words[0], it) for words, it in found[0] if it is not None] if found else []
+
+
+def numbers(block, name):
+    """Returns all numbers of the block of a field."""
+    for words, rows in block:
+        if words[0] == name:
+            return numpy.array([float(word) for row, _ in rows for word in row])
+    raise ValueError(f"no field {name}")
+
+
+def turned(quaternion, vector):
+    axis, real = quaternion[:3], quaternion[3]
+    across = 2 * numpy.cross(axis, vector)
+    return vector + real * across + numpy.cross(axis, across)
+
+
+def materialOf(block):
+    color = field(block, "BaseColor", (1, 1, 1))
+    roughness = field(block, "Roughness", (1,))[0]
+    if field(block, "Transmission", (0,))[0] == 1 and roughness == 0:
+        return {"kind": "glass", "color": color, "ior": field(block, "Ior", (1.5,))[0]}
+    if field(block, "Metallic", (0,))[0] == 1:
+        return {"kind": "metal", "color": color, "roughness": roughness}
+    if field(block, "Ior", (1.5,))[0] == 1:
+        return {"kind": "diffuse", "color": color}
+    raise ValueError("a material that other renderers are not given")
+
+
+class Reader:
+    """Follows the graph of a file. Objects that are met again have their number alone."""
+
+    def __init__(self, view):
+        self.known, self.parts, self.lamps, self.view = {}, [], [], view
+
+    def whole(self, block):
+        return self.known.setdefault(int(field(block, "UniqueID")[0]), block)
+
+    def material(self, block, inherited):
+        for _, state in inner(block, "StateSet"):
+            for kind, attribute in inner(self.whole(state), "AttributeList"):
+                if kind == "osgRayTrace::PhysicalMaterial":
+                    inherited = materialOf(self.whole(attribute))
+        return inherited
+
+    def geometry(self, block, matrix, material):
+        arrays = {name: inner(block, name) for name in ("VertexArray", "NormalArray")}
+        points = numbers(arrays["VertexArray"][0][1], "vector").reshape(-1, 3)
+        normals = None
+        if arrays["NormalArray"]:
+            normals = numbers(arrays["NormalArray"][0][1], "vector").reshape(-1, 3)
+            normals = normals @ matrix[:3, :3]  # of rotations alone
+        for kind, primitive in inner(block, "PrimitiveSetList"):
+            mode = [words[1] for words, _ in primitive if words[0] == "Mode"][0]
+            if kind == "osg::DrawArrays":
+                first, count = field(primitive, "First", (0,))[0], field(primitive, "Count")[0]
+                index = numpy.arange(first, first + count).astype(int)
+            else:
+                index = numbers(primitive, "vector").astype(int)
+            if mode == "QUADS":
+                quads = index.reshape(-1, 4)
+                index = numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+            elif mode != "TRIANGLES":
+                raise ValueError(f"primitives of mode {mode}")
+            part = {"points": points @ matrix[:3, :3] + matrix[3, :3], "normals": normals}
+            self.parts.append({**part, "triangles": index.reshape(-1, 3), "material": material})
+
+    def node(self, kind, block, matrix, material):
+        block = self.whole(block)
+        material = self.material(block, material)
+        if kind == "osg::MatrixTransform":
+            own = numbers(block, "Matrix").reshape(4, 4)
+            matrix = own @ matrix  # rows are points, as OSG's
+        if kind == "osg::CameraView" and self.view is None:
+            attitude, eye = field(block, "Attitude"), field(block, "Position")
+            turn = matrix[:3, :3]
+            eye = eye @ turn + matrix[3, :3]
+            self.view = {
+                "eye": eye,
+                "center": eye + turned(attitude, numpy.array([0, 0, -1.0])) @ turn,
+                "up": turned(attitude, numpy.array([0, 1.0, 0])) @ turn,
+                "fovy": field(block, "FieldOfView")[0],
+            }
+        if kind == "osgRayTrace::AreaLight":
+            corner, u, v = (field(block, it) for it in ("Corner", "EdgeU", "EdgeV"))
+            turn = matrix[:3, :3]
+            lamp = (corner @ turn + matrix[3, :3], u @ turn, v @ turn, field(block, "Radiance"))
+            self.lamps.append(lamp)
+        for _, geometry in inner(block, "Drawables"):
+            self.geometry(self.whole(geometry), matrix, material)
+        for child, inside in inner(block, "Children"):
+            self.node(child, inside, matrix, material)
+
+
+def read(file):
+    """Returns the scene of a file."""
+    with open(file, encoding="utf-8") as text:
+        blocks = parse(text.read())
+    reader = Reader(None)
+    for words, block in blocks:
+        reader.node(words[0], block, numpy.eye(4), None)
+    return {"view": reader.view, "parts": reader.parts, "lamps": reader.lamps}
+
+
+FILE = """#Ascii Scene
+#Version 161
+#Generator OpenSceneGraph 3.6.5
+
+osg::Group {{
+  UniqueID 1
+  StateSet TRUE {{
+    osg::StateSet {{
+      UniqueID 2
+      ModeList 1 {{
+        GL_LIGHT0 OFF
+      }}
+    }}
+  }}
+  Children {count} {{
+{children}
+  }}
+}}
+"""
+PART = """osg::Geode {{ UniqueID {geode}
+StateSet TRUE {{ osg::StateSet {{ UniqueID {state} AttributeList 1 {{
+osgRayTrace::PhysicalMaterial {{ UniqueID {material} BaseColor {color} Ior 1 }} Value OFF }} }} }}
+Drawables 1 {{ osg::Geometry {{ UniqueID {geometry}
+PrimitiveSetList 1 {{ osg::DrawElementsUInt {{ UniqueID {elements} Mode TRIANGLES vector {size} {{
+{triangles} }} }} }}
+VertexArray TRUE {{ osg::Vec3Array {{ UniqueID {array} Binding BIND_PER_VERTEX vector {count} {{
+{points} }} }} }} }} }} }}"""
+LAMP = "osgRayTrace::AreaLight {{ UniqueID {} Corner {} EdgeU {} EdgeV {} Radiance {} }}"
+
+
+def text(values):
+    return " ".join(f"{value:.9g}" for value in numpy.ravel(values))
+
+
+def write(file, scene):
+    """Writes a scene whose materials are diffuse; the view is left out."""
+    children = []
+    for index, part in enumerate(scene["parts"]):
+        names = ("geode", "state", "material", "geometry", "elements", "array")
+        numbered = {name: 10 * index + 10 + i for i, name in enumerate(names)}
+        points, triangles = part["points"], part["triangles"]
+        sizes = {"size": triangles.size, "count": len(points)}
+        arrays = {"points": text(points), "triangles": text(triangles)}
+        color = text(part["material"]["color"])
+        children.append(PART.format(**numbered, **sizes, **arrays, color=color))
+    first = 10 * len(children) + 20
+    for index, lamp in enumerate(scene["lamps"]):
+        children.append(LAMP.format(first + index, *[text(it) for it in lamp]))
+    with open(file, "w", encoding="utf-8") as out:
+        out.write(FILE.format(count=len(children), children="\n".join(children)))
