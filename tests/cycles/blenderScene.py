@@ -14,29 +14,15 @@ import bpy
 import numpy
 from mathutils import Matrix, Vector
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from objParts import readParts  # noqa: E402,F401
+
 
 def turnOf(view):
     """Returns the transform of a scene of ours: its view's right, ahead and up become x, y and z."""
     ahead = (view["center"] - view["eye"]).normalized()
     right = ahead.cross(view["up"]).normalized()
     return Matrix((right, ahead, right.cross(ahead)))
-
-
-def readParts(file):
-    """Returns the vertices and faces of each object of an OBJ file, by name."""
-    parts, first, count = {}, 1, 0
-    with open(file, encoding="utf-8") as lines:
-        for line in lines:
-            words = line.split()
-            if line.startswith("o "):
-                first = count + 1
-                points, faces = parts.setdefault(line[2:].strip(), ([], []))
-            elif line.startswith("v "):
-                points.append([float(word) for word in words[1:]])
-                count += 1
-            elif line.startswith("f "):
-                faces.append([int(word.split("/")[0]) - first for word in words[1:]])
-    return parts
 
 
 def diffuse(name, color):
@@ -48,6 +34,23 @@ def diffuse(name, color):
     surface.inputs["Color"].default_value = (*color, 1)
     links.new(surface.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
     return material
+
+
+def fillWithFog(material, scattered, absorbed, anisotropy):
+    """Makes a material a grey medium: coefficients [1/length]."""
+    material.use_nodes = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    nodes.clear()
+    scatter, absorb = nodes.new("ShaderNodeVolumeScatter"), nodes.new("ShaderNodeVolumeAbsorption")
+    scatter.inputs["Color"].default_value = (1, 1, 1, 1)
+    scatter.inputs["Density"].default_value = scattered
+    scatter.inputs["Anisotropy"].default_value = anisotropy
+    absorb.inputs["Color"].default_value = (0, 0, 0, 1)
+    absorb.inputs["Density"].default_value = absorbed
+    both = nodes.new("ShaderNodeAddShader")
+    links.new(scatter.outputs[0], both.inputs[0])
+    links.new(absorb.outputs[0], both.inputs[1])
+    links.new(both.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Volume"])
 
 
 def addLamp(view, corner, u, v, radiance, seen=False):

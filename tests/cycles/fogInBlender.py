@@ -41,19 +41,9 @@ def addFog():
     center = blenderScene.turnOf(VIEW) @ Vector((278, 274.4, 279.6))
     bpy.ops.mesh.primitive_ico_sphere_add(radius=490, location=center, subdivisions=5)
     material = bpy.data.materials.new("fog")
-    material.use_nodes = True
-    nodes, links = material.node_tree.nodes, material.node_tree.links
-    nodes.clear()
-    scatter, absorb = nodes.new("ShaderNodeVolumeScatter"), nodes.new("ShaderNodeVolumeAbsorption")
-    scatter.inputs["Color"].default_value = (1, 1, 1, 1)
-    scatter.inputs["Density"].default_value = SCATTERED * DENSITY
-    scatter.inputs["Anisotropy"].default_value = ANISOTROPY
-    absorb.inputs["Color"].default_value = (0, 0, 0, 1)
-    absorb.inputs["Density"].default_value = (1 - SCATTERED) * DENSITY
-    both = nodes.new("ShaderNodeAddShader")
-    links.new(scatter.outputs[0], both.inputs[0])
-    links.new(absorb.outputs[0], both.inputs[1])
-    links.new(both.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Volume"])
+    blenderScene.fillWithFog(
+        material, SCATTERED * DENSITY, (1 - SCATTERED) * DENSITY, ANISOTROPY
+    )
     bpy.context.object.data.materials.append(material)
 
 

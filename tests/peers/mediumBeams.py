@@ -1,0 +1,218 @@
+# mediumBeams.py - how fast light that a glass ball gathers in fog converges beside Tungsten's beams.
+# SPDX-License-Identifier: MIT
+"""A closed room is full of gas, with a glass ball under a small lamp. Each renderer gets numbers of
+passes, one thread and its own long picture; relMSE is that of noise.py. The table has relMSE and
+processor seconds, less those of the fewest passes, and when 3e-3 is reached, by powers between them.
+The program tungsten is the one of the variable OSGRAYTRACE_TUNGSTEN, or that of the path."""
+import json
+import os
+import shutil
+import sys
+
+import mediumTable
+import noise
+import numpy
+import osgText
+
+TUNGSTEN = os.environ.get("OSGRAYTRACE_TUNGSTEN") or shutil.which("tungsten")
+LOW, HIGH = (-1.0, 0.0, -1.0), (1.0, 2.0, 2.6)  # corners of the room [m]
+BALL, RADIUS, INDEX = (0.1, 1.15, 0.0), 0.35, 1.5
+LAMP, SIDE, RADIANCE = (0.0, 1.98, 0.0), 0.01, (2e4, 1.8e4, 1.5e4)
+SCATTERING, ABSORPTION = 0.4, 0.02
+EYE, CENTER, FOVY = (0.0, 1.0, 2.5), (0.0, 1.0, 0.0), 50.0
+BOUNCES, TARGET = 16, 3e-3
+
+
+def walls():
+    """Returns the sides of the room, with their fronts inside."""
+    (x, y, z), (X, Y, Z) = LOW, HIGH
+    return [
+        [(x, y, z), (x, y, Z), (X, y, Z), (X, y, z)],
+        [(x, Y, z), (X, Y, z), (X, Y, Z), (x, Y, Z)],
+        [(x, y, z), (X, y, z), (X, Y, z), (x, Y, z)],
+        [(x, y, Z), (x, Y, Z), (X, Y, Z), (X, y, Z)],
+        [(x, y, z), (x, Y, z), (x, Y, Z), (x, y, Z)],
+        [(X, y, z), (X, y, Z), (X, Y, Z), (X, Y, z)],
+    ]
+
+
+def writeOurs(file, albedo):
+    half = SIDE / 2
+    corner = (LAMP[0] - half, LAMP[1], LAMP[2] - half)
+    osgText.write(
+        file,
+        [
+            osgText.quads("walls", walls(), [albedo] * 3),
+            osgText.sphere("ball", BALL, RADIUS, osgText.glass(INDEX)),
+            osgText.areaLight(corner, (SIDE, 0, 0), (0, 0, SIDE), RADIANCE),
+            osgText.fog((0, 1, 0.8), 10, osgText.medium(SCATTERING, ABSORPTION, 0)),
+        ],
+    )
+
+
+def quad(center, size, rotation, bsdf):
+    place = {"position": center, "scale": [size[0], 1, size[1]], "rotation": rotation}
+    return {"type": "quad", "transform": place, "bsdf": bsdf, "ext_medium": "gas"}
+
+
+def writeTungsten(file, albedo, size, passes, photons, radius):
+    x, y, z = (HIGH[k] - LOW[k] for k in range(3))
+    mx, my, mz = ((HIGH[k] + LOW[k]) / 2 for k in range(3))
+    room = [
+        quad([mx, LOW[1], mz], (x, z), [0, 0, 0], "wall"),
+        quad([mx, HIGH[1], mz], (x, z), [0, 0, 180], "wall"),
+        quad([mx, my, LOW[2]], (x, y), [90, 0, 0], "wall"),
+        quad([mx, my, HIGH[2]], (x, y), [-90, 0, 0], "wall"),
+        quad([LOW[0], my, mz], (y, z), [0, 0, -90], "wall"),
+        quad([HIGH[0], my, mz], (y, z), [0, 0, 90], "wall"),
+    ]
+    lamp = {**quad(LAMP, (SIDE, SIDE), [0, 0, 180], "null"), "emission": RADIANCE}
+    ball = {
+        "type": "sphere",
+        "transform": {"position": BALL, "scale": RADIUS},
+        "bsdf": "glass",
+        "ext_medium": "gas",
+    }
+    scene = {
+        "media": [
+            {
+                "name": "gas",
+                "type": "homogeneous",
+                "sigma_a": ABSORPTION,
+                "sigma_s": SCATTERING,
+                "phase_function": {"type": "isotropic"},
+            }
+        ],
+        "bsdfs": [
+            {"name": "wall", "type": "lambert", "albedo": albedo},
+            {"name": "glass", "type": "dielectric", "ior": INDEX, "albedo": 1},
+            {"name": "null", "type": "null", "albedo": 1},
+        ],
+        "primitives": [*room, ball, lamp],
+        "camera": {
+            "type": "pinhole",
+            "resolution": [size, size],
+            "fov": FOVY,
+            "medium": "gas",
+            "reconstruction_filter": "box",
+            "transform": {"position": EYE, "look_at": CENTER, "up": [0, 1, 0]},
+        },
+        "integrator": {
+            "type": "progressive_photon_map",
+            "max_bounces": BOUNCES,
+            "photon_count": photons,
+            "volume_photon_count": 8 * photons,
+            "volume_photon_type": "beams",
+            "volume_gather_radius": radius,
+            "gather_radius": 0.05,
+            "use_frustum_grid": True,
+        },
+        "renderer": {
+            "spp": passes,
+            "spp_step": 1,
+            "hdr_output_file": os.path.basename(file) + ".pfm",
+            "output_file": os.path.basename(file) + ".png",
+            "overwrite_output_files": True,
+            "stratified_sampler": True,
+            "adaptive_sampling": False,
+            "checkpoint_interval": "0",
+            "timeout": "0",
+        },
+    }
+    with open(file + ".json", "w", encoding="utf-8") as text:
+        json.dump(scene, text)
+
+
+def tungsten(options, photons, radius):
+    """Returns a function that renders a picture, saves it as an array and returns the seconds."""
+
+    def render(file, passes, seed):
+        writeTungsten(file, options.albedo, options.size, passes, photons, radius)
+        command = [TUNGSTEN, "-t", "1", "-s", str(seed), file + ".json"]
+        seconds = mediumTable.measured(command, file + ".log")
+        numpy.save(file, mediumTable.pfmArray(file + ".pfm"))
+        return seconds
+
+    return render
+
+
+def ours(options, scene, integrator):
+    view = ["--eye", *map(str, EYE), "--center", *map(str, CENTER), "--up", "0", "1", "0"]
+    arguments = ["--fovy", str(FOVY), "--integrator", integrator, *view]
+    renderer = mediumTable.ours(scene, options, BOUNCES, *arguments)
+    return lambda file, passes, seed: renderer([[file, passes, seed]])[0]
+
+
+def reached(seconds, errors):
+    """Returns when the target is reached, along straight lines of logarithms, the last one of which
+    goes on."""
+    t, e = numpy.log(seconds), numpy.log(errors)
+    for k in range(len(t) - 1):
+        if e[k + 1] <= numpy.log(TARGET) or k == len(t) - 2:
+            share = (numpy.log(TARGET) - e[k]) / (e[k + 1] - e[k])
+            return float(numpy.exp(t[k] + share * (t[k + 1] - t[k])))
+    return None
+
+
+def table(options, name, render, counts, longest, reference=None):
+    stem = os.path.join(os.path.abspath(options.out), name)
+    if reference is None:
+        render(stem + "-reference", longest, 1000)
+        reference = noise.load(stem + "-reference")
+    start = numpy.mean([render(f"{stem}-start", 1, seed) for seed in (1, 2)])
+    seconds, errors = [], []
+    for count in counts:
+        found = []
+        for seed in options.seeds:
+            file = f"{stem}-{count}-{seed}"
+            used = render(file, count, seed)
+            found.append((used - start, noise.errors(noise.load(file), reference, [])[0]))
+        seconds.append(numpy.mean([pair[0] for pair in found]) * count / (count - 1))
+        errors.append(numpy.mean([pair[1] for pair in found]))
+        print(f"| {name} | {count} | {seconds[-1]:.2f} | {errors[-1]:.5f} |", flush=True)
+    print(f"{name}: relMSE {TARGET} after {reached(seconds, errors):.2f} s", flush=True)
+    return reference
+
+
+def main():
+    parser = noise.argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", default=os.path.join(noise.HERE, "../../build/release"))
+    parser.add_argument("--out", default="out/beams")
+    parser.add_argument("--size", type=int, default=96)
+    parser.add_argument("--albedo", type=float, default=0.5, help="of the walls")
+    parser.add_argument("--photons", type=int, default=10000, help="of Tungsten, in a pass")
+    parser.add_argument("--radius", type=float, default=0.02, help="of Tungsten's beams [m]")
+    parser.add_argument("--counts", type=int, nargs="+", default=[4, 16, 64, 256])
+    parser.add_argument("--longest", type=int, default=4096)
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--only", default="tungsten,photons,path")
+    options = parser.parse_args()
+    if not TUNGSTEN or not os.path.exists(TUNGSTEN):
+        print("skipped: there is no Tungsten; OSGRAYTRACE_TUNGSTEN names the program")
+        sys.exit(77)
+    noise.needBlender()
+    os.makedirs(options.out, exist_ok=True)
+    scene = os.path.abspath(os.path.join(options.out, "ball.osgt"))
+    writeOurs(scene, options.albedo)
+    print("| renderer | passes | s | relMSE |\n| --- | --- | --- | --- |")
+    references = {}
+    if "photons" in options.only:
+        references["ours"] = table(
+            options, "photons", ours(options, scene, "photon-caustics"), options.counts,
+            options.longest,
+        )
+    if "tungsten" in options.only:
+        references["tungsten"] = table(
+            options, "tungsten", tungsten(options, options.photons, options.radius),
+            options.counts, options.longest,
+        )
+        if "ours" in references:
+            ratio = references["tungsten"].mean((0, 1)) / references["ours"].mean((0, 1))
+            apart = noise.errors(references["tungsten"], references["ours"], [])[0]
+            print("means of Tungsten over ours", ratio.round(4), f"relMSE apart {apart:.5f}")
+    if "path" in options.only and "ours" in references:
+        path = ours(options, scene, "path")
+        table(options, "path", path, options.counts[-2:], 0, references["ours"])
+
+
+main()

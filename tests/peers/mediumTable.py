@@ -1,0 +1,88 @@
+# mediumTable.py - the noise of pictures of media by several renderers; for the scripts of this folder.
+# SPDX-License-Identifier: MIT
+"""What is compared, and how, is told by tests/cycles/noise.py. A renderer is a function that renders
+noise.pictures(options, name), which it gets, as arrays of NumPy, and returns the processor seconds of
+each."""
+import os
+import sys
+
+import numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cycles"))
+import noise  # noqa: E402
+
+
+def ours(scene, options, bounces, *arguments, build=None, environment=None, arrays=None):
+    """Returns a renderer that is osgraytrace. build: another build than that of the options; the
+    environment has more variables for it. arrays: makes arrays of .exr files; by default Blender
+    does."""
+    build = os.path.abspath(build or options.build)
+
+    def render(pictures):
+        seconds = []
+        for file, samples, seed in pictures:
+            command = [os.path.join(build, "bin/osgraytrace"), scene, "-o", file + ".exr"]
+            command += ["--size", str(options.size), str(options.size), "--passes", str(samples)]
+            command += ["--seed", str(seed), "--threads", "1", "--max-bounces", str(bounces)]
+            folder = os.path.join(build, "lib")
+            libraries = {"OSG_LIBRARY_PATH": f"{folder}:{folder}/osgPlugins-3.6.5"}
+            variables = {**os.environ, **libraries, **(environment or {})}
+            seconds.append(measured([*command, *arguments], file + ".log", env=variables))
+        files = [file + ".exr" for file, _, _ in pictures]
+        (arrays or blenderArrays)(files, options)
+        return seconds
+
+    return render
+
+
+def measured(command, log, **keywords):
+    """Runs a program, and returns its processor seconds."""
+    before = noise.resource.getrusage(noise.resource.RUSAGE_CHILDREN)
+    noise.run(command, log, **keywords)
+    after = noise.resource.getrusage(noise.resource.RUSAGE_CHILDREN)
+    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+
+
+def blenderArrays(files, options):
+    noise.runBlender("fogInBlender.py", {"convert": files}, options, "convert")
+
+
+def pfmArray(file):
+    """Returns the picture of a .pfm file, the lowest row first."""
+    with open(file, "rb") as data:
+        data.readline()
+        width, height = (int(word) for word in data.readline().split())
+        order = "<" if float(data.readline()) < 0 else ">"
+        values = numpy.frombuffer(data.read(), order + "f4")
+    return values.reshape(height, width, 3).astype(numpy.float32)
+
+
+def compare(options, renderers, one_reference=False):
+    """Prints a table with a row for each renderer; the last one is what the others are compared
+    with. one_reference: the long picture of the last one is right for all."""
+    results, references = {}, {}
+    for name, render in reversed(renderers.items()):
+        long = noise.pictures(options, name)[:1]
+        if not one_reference or not references:
+            render(long)
+            references[name] = noise.load(long[0][0])
+    right = next(iter(references.values()))
+    print("| renderer | relMSE | s | relMSE x s | mean |\n| --- | --- | --- | --- | --- |")
+    for name, render in renderers.items():
+        pictures, seeds = noise.pictures(options, name)[1:], len(noise.SEEDS)
+        seconds = numpy.array(render(pictures))
+        reference = references.get(name, right)
+        many = [noise.load(file) for file, _, _ in pictures[seeds:]]
+        found = [noise.errors(picture, reference, [])[0] for picture in many]
+        each = (seconds[seeds:].mean() - seconds[:seeds].mean()) / (noise.MANY - noise.FEW)
+        product = numpy.mean(found) * each * noise.MANY
+        if one_reference:
+            reference = numpy.mean(many, axis=0)
+        results[name] = product, reference.mean((0, 1))
+        row = [f"{number:.3g}" for number in (numpy.mean(found), each * noise.MANY, product)]
+        print(f"| {name} | {' | '.join(row)} | {reference.mean():.5f} |", flush=True)
+    last, mean = list(results.values())[-1]
+    for name, (product, other) in list(results.items())[:-1]:
+        print(f"{name}: relMSE x s is {product / last:.2f} times ours, means over ours", end=" ")
+        print((other / mean).round(4), flush=True)
+    return 0
