@@ -40,7 +40,9 @@ constexpr const char* kTextures[PhysicalMaterial::NUMBER_OF_TEXTURES] = {
     "diffuseTransmissionColorTexture",
     "iridescenceTexture",
     "iridescenceThicknessTexture",
-    "clearcoatNormalTexture"};
+    "clearcoatNormalTexture",
+    "subsurfaceTexture",
+    "subsurfaceRadiusTexture"};
 
 PhysicalMaterial::TextureUse useOf(int number)
 {

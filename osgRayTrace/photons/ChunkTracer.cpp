@@ -35,18 +35,24 @@ uint32_t faceKey(uint32_t instance, uint32_t primitive, uint32_t stretch)
 
 } // namespace
 
+/// Returns the point at which the material of a lane's surface is asked for.
+MaterialPoint ChunkTracer::pointAt(const SurfaceLanes& surface, int i) const
+{
+    const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+    const RayBlock& ray = _rays.ray;
+    const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
+    return materialPointOf(_inputs.traced.surfaces()[surface.instance[i]], record,
+                           _rays.primitive[i], _rays.u[i], _rays.v[i], (surface.front >> i) & 1u,
+                           direction);
+}
+
 /// Returns the surface model of a lane, which stays until the next block.
 const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
 {
     const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
     const bool front = (surface.front >> i) & 1u;
     if (record.constant && !record.pane) return front ? &record.front : &record.back;
-    const SurfaceRecord& where = _inputs.traced.surfaces()[surface.instance[i]];
-    const RayBlock& ray = _rays.ray;
-    const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
-    _textured[i] = _inputs.traced.materials().bsdf(
-        surface.material[i], materialPointOf(where, record, _rays.primitive[i], _rays.u[i],
-                                             _rays.v[i], front, direction));
+    _textured[i] = _inputs.traced.materials().bsdf(surface.material[i], pointAt(surface, i));
     // passPanes has taken this lobe.
     if (_textured[i].thin && _textured[i].isSmooth()) _textured[i].transmission = Vec3(0.0f);
     return &_textured[i];

@@ -140,14 +140,16 @@ private:
                int bounce);
     // Photons below diffuse boundaries are in ChunkSubsurface.cpp.
     void walkBelowSurfaces(PhotonPathBlock& block, SurfaceLanes& surface, int bounce);
+    struct BodyWalks;
     bool walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& surface, int i, int bounce,
-                          RayHitBlock& leaving);
-    void leaveBodies(PhotonPathBlock& block, const RayHitBlock& leaving, LaneMask lanes,
+                          BodyWalks& walks);
+    void leaveBodies(PhotonPathBlock& block, const BodyWalks& walks, LaneMask lanes,
                      SurfaceLanes& surface);
 
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
     void scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
                     bool mustMirror);
+    MaterialPoint pointAt(const SurfaceLanes& surface, int i) const;
     const Bsdf* bsdfAt(const SurfaceLanes& surface, int i);
 
     const ChunkInputs& _inputs;

@@ -109,6 +109,8 @@ enum TextureRole : uint32_t
     kIridescenceRole,              ///< iridescence in R; linear
     kIridescenceThicknessRole,     ///< from the least to the largest thickness in G; linear
     kClearcoatNormalRole,          ///< as kNormalRole, of the clear coat
+    kSubsurfaceRole,               ///< subsurface in R; linear
+    kSubsurfaceRadiusRole,         ///< multiplies subsurfaceRadius; linear
     kTextureRoles,
 };
 

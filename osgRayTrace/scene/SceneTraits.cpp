@@ -60,7 +60,8 @@ void addMaterial(const Material& material, SceneTraits& traits)
     traits.physical |= isSeen && (reflects || transmits || material.baseColor != Vec3(0.0f));
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
     traits.glossy |= material.metallic >= 1.0f && material.roughness < kRoughRoughness;
-    traits.transmission |= material.transmission > 0.0f && material.metallic < 1.0f;
+    traits.transmission |=
+        material.transmission > 0.0f && material.metallic < 1.0f && !isInterface(material);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace osgRayTrace::engine
 // that others do not read has another kMessages: BuildIdentity.cpp.
 static_assert(sizeof(Instance) == 72 && sizeof(Fog) == 28 && sizeof(Scene) == 240);
 static_assert(sizeof(Medium) == 48 && sizeof(Atmosphere) == 80);
-static_assert(sizeof(MaterialDetail) == 700 && sizeof(Material) == 616);
+static_assert(sizeof(MaterialDetail) == 764 && sizeof(Material) == 616);
 static_assert(sizeof(Texture) == 160 && sizeof(TextureMapping) == 136);
 static_assert(sizeof(Light) == 256 && sizeof(EnvironmentImage) == 32 && sizeof(Environment) == 56);
 static_assert(sizeof(Mesh) == 360);

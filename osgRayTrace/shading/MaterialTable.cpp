@@ -157,11 +157,13 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
 {
     const Material& m = _scene->materials[material];
     Bsdf bsdf = m.model == MaterialModel::Physical ? physical(m, point) : fixedFunction(m, point);
+    // Light that leaves the body meets the layers over a base of any colour, black included.
+    const bool base = bsdf.diffuse != Vec3(0.0f) || bsdf.diffuseTransmission != Vec3(0.0f) ||
+                      (bsdf.layered && bsdf.baseShare > 0.0f && hasSubsurface(m));
     if (bsdf.coat > 0.0f)
     {
         const Coat& coat = _coats[material][point.front || !bsdf.transmits() || bsdf.thin ? 0 : 1];
         bsdf.coatAverage = coat.average;
-        const bool base = bsdf.diffuse != Vec3(0.0f) || bsdf.diffuseTransmission != Vec3(0.0f);
         if (coat.rough && !bsdf.isSmooth() && base)
         {
             const CoatAlbedo::Place place = coat.rough->at(std::sqrt(bsdf.alpha));
@@ -169,8 +171,7 @@ Bsdf MaterialTable::bsdf(uint32_t material, const MaterialPoint& point) const
             bsdf.coatFraction = place.fraction;
         }
     }
-    if (!bsdf.layered || (bsdf.diffuse == Vec3(0.0f) && bsdf.diffuseTransmission == Vec3(0.0f)))
-        return bsdf;
+    if (!bsdf.layered || !base) return bsdf;
     if (bsdf.film > 0.0f && bsdf.coatRows) bsdf.filmRise = filmRiseOf(bsdf);
     bsdf.baseAverage = baseAverageOf(bsdf);
     return bsdf;

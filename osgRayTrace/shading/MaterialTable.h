@@ -40,10 +40,14 @@ struct MaterialRecord
     bool normalMap = false; ///< true: a texture decides on the shading normals
     bool pane = false;      ///< true: light may pass straight: see MaterialTable::pane
     bool interface = false; ///< true: nothing but the boundary of a medium: see isInterface
-    bool subsurface = false;    ///< true: light enters the body: see hasSubsurface
-    bool absorbs = false;       ///< true: the body below the surface absorbs light
-    uint8_t uvSets = 0;         ///< bit n: a texture reads set n, from kFirstMoreUvs on
-    Vec3 subsurfaceSigma{0.0f}; ///< extinction below the surface [1/engine unit]
+    bool subsurface = false;        ///< true: light enters the body: see hasSubsurface
+    bool absorbs = false;           ///< true: the body below the surface absorbs light
+    uint8_t uvSets = 0;             ///< bit n: a texture reads set n, from kFirstMoreUvs on
+    Vec3 subsurfaceSigma{0.0f};     ///< extinction below the surface [1/engine unit]
+    bool subsurfaceVaries = false;  ///< true: textures decide on what light below it meets
+    bool radiusVaries = false;      ///< true: a texture decides on subsurfaceSigma
+    float largestSubsurface = 0.0f; ///< of all points
+    Vec3 largestBodyColor{0.0f};    ///< of all points: base colours
     Vec3 absorption{0.0f}; ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
 };
 
@@ -89,6 +93,9 @@ public:
     /// the highlight leaves.
     Bsdf bsdf(uint32_t material, const MaterialPoint& point) const;
 
+    /// Returns the extinction below a point of a surface with subsurface [1/engine unit].
+    Vec3 subsurfaceSigma(uint32_t material, const MaterialPoint& point) const;
+
     /// Returns the share of the light that passes a point of a pane straight, for a direction with
     /// this cosine to the shading normal. Panes are thin walls with smooth faces.
     Vec3 pane(uint32_t material, const MaterialPoint& point, float cosTheta) const;
@@ -119,6 +126,7 @@ private:
     void addDiffuseTransmission(const Material& material, const MaterialPoint& point,
                                 Bsdf& bsdf) const;
     void addSubsurface(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
+    void setSubsurface(const Material& material, MaterialRecord& record) const;
     void addFilm(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addLayers(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     Bsdf fixedFunction(const Material& material, const MaterialPoint& point) const;

@@ -12,10 +12,6 @@
 namespace osgRayTrace::engine
 {
 
-/// The largest extinction below a surface [1/engine unit]. Light does not get anywhere with it, and
-/// optical depths of 1e30 leave floats finite.
-constexpr float kLargestExtinction = 1e24f;
-
 static Vec3 clampUnit(Vec3 v)
 {
     return glm::clamp(v, 0.0f, 1.0f);
@@ -37,10 +33,7 @@ void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
         detail.absorbs() && (m.transmission > 0.0f || detail.diffuseTransmission > 0.0f);
     record.interface = isInterface(m);
     record.subsurface = hasSubsurface(m);
-    const auto unit = static_cast<float>(_scene->unit);
-    for (int c = 0; c < 3 && record.subsurface; ++c)
-        record.subsurfaceSigma[c] =
-            std::min(unit / std::max(detail.subsurfaceRadius[c], 1e-30f), kLargestExtinction);
+    if (record.subsurface) setSubsurface(m, record);
     if (record.absorbs)
         record.absorption = detail.interior.sigmaA * static_cast<float>(_scene->unit);
 }
@@ -147,24 +140,6 @@ void MaterialTable::addDiffuseTransmission(const Material& m, const MaterialPoin
         std::clamp(m.transmission * textureOr(m, kTransmissionRole, point).x, 0.0f, 1.0f);
     bsdf.diffuseTransmission = color * ((1.0f - metallic) * (1.0f - transmission) * share);
     bsdf.diffuse *= 1.0f - share;
-    bsdf.layered = true;
-}
-
-/// Lets light enter the body. The base stays whole for those who do not follow such light.
-void MaterialTable::addSubsurface(const Material& m, const MaterialPoint& point, Bsdf& bsdf) const
-{
-    const float metallic =
-        std::clamp(m.metallic * textureOr(m, kMetallicRoughnessRole, point).z, 0.0f, 1.0f);
-    const float transmission =
-        std::clamp(m.transmission * textureOr(m, kTransmissionRole, point).x, 0.0f, 1.0f);
-    const float through = m.detail->diffuseTransmission > 0.0f
-                              ? glm::clamp(m.detail->diffuseTransmission *
-                                               textureOr(m, kDiffuseTransmissionRole, point).w,
-                                           0.0f, 1.0f)
-                              : 0.0f;
-    bsdf.baseShare = (1.0f - metallic) * (1.0f - transmission) * (1.0f - through);
-    if (!(bsdf.baseShare > 0.0f)) return;
-    bsdf.subsurface = std::clamp(m.detail->subsurface, 0.0f, 1.0f);
     bsdf.layered = true;
 }
 

@@ -158,6 +158,27 @@ Vec4 sampleVolume(const Texture& texture, Vec3 str)
 
 } // namespace
 
+Vec3 largestTexel(const Texture& texture)
+{
+    Vec3 largest(0.0f);
+    if (hasBorder(texture.wrapS) || hasBorder(texture.wrapT))
+        largest = glm::max(Vec3(borderOf(texture)), largest);
+    for (std::size_t i = 0; i + 3 < texture.floats.size(); i += 4)
+        for (int c = 0; c < 3; ++c)
+            largest[c] = std::fmax(largest[c], texture.floats[i + std::size_t(c)]);
+    uint8_t bytes[3] = {};
+    for (std::size_t i = 0; i + 3 < texture.bytes.size(); i += 4)
+    {
+        for (std::size_t c = 0; c < 3; ++c)
+            if (texture.bytes[i + c] > bytes[c]) bytes[c] = texture.bytes[i + c];
+        if (bytes[0] == 255 && bytes[1] == 255 && bytes[2] == 255) break;
+    }
+    for (int c = 0; c < 3; ++c)
+        largest[c] = std::fmax(largest[c], texture.decodeSrgb ? decodedBytes()[bytes[c]]
+                                                              : float(bytes[c]) * (1.0f / 255.0f));
+    return largest;
+}
+
 Vec4 sampleTexture(const Texture& texture, Vec2 uv)
 {
     return sampleSlice(texture, uv, 0);

@@ -43,6 +43,10 @@ Vec4 sampleTexture(const Texture& texture, Vec2 uv, float width);
 /// width.
 Vec4 sampleTexture(const Texture& texture, Vec4 coordinates, float width);
 
+/// Returns an upper bound of what look-ups give in red, green and blue, at least 0. Looks at all
+/// texels, as far as none is the largest possible.
+Vec3 largestTexel(const Texture& texture);
+
 /// Returns the linear value of each sRGB byte [IEC61966].
 const std::array<float, 256>& decodedBytes();
 

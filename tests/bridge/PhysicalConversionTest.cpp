@@ -135,8 +135,10 @@ TEST_CASE("physical material: textures have their place, and are left out withou
 {
     const osg::ref_ptr<PhysicalMaterial> physical = new PhysicalMaterial;
     const auto texture = smallTexture();
-    for (const auto use : {PhysicalMaterial::NORMAL_TEXTURE, PhysicalMaterial::SPECULAR_TEXTURE,
-                           PhysicalMaterial::SHEEN_COLOR_TEXTURE})
+    for (const auto use :
+         {PhysicalMaterial::NORMAL_TEXTURE, PhysicalMaterial::SPECULAR_TEXTURE,
+          PhysicalMaterial::SHEEN_COLOR_TEXTURE, PhysicalMaterial::SUBSURFACE_TEXTURE,
+          PhysicalMaterial::SUBSURFACE_RADIUS_TEXTURE})
         physical->setTexture(use, texture);
     PhysicalMaterial::TexturePlace place;
     place.offset.set(0.25f, 0.5f);
@@ -165,6 +167,8 @@ TEST_CASE("physical material: textures have their place, and are left out withou
     physical->setTransmission(0.0f);
     physical->setClearcoat(0.0f);
     CHECK_FALSE(result.scene->textures.at(material.detail->textures[kNormalRole])->decodeSrgb);
+    for (const TextureRole role : {kSubsurfaceRole, kSubsurfaceRadiusRole}) // lengths, not colours
+        CHECK_FALSE(result.scene->textures.at(material.detail->textures[role])->decodeSrgb);
     CHECK(material.detail->textures[kSheenColorRole] == kInvalid);
     CHECK(countOf(result, "approximated.no-texture-coordinates") == 1);
     const TexturePlace& placed = material.detail->places[kSpecularRole];

@@ -306,6 +306,22 @@ TEST_CASE("shader rules: channels are put where they belong, once", "[bridge]")
                       "metallicTexture": { "unit": 2 })") == std::vector<int>{215, 50});
     CHECK(packedOf(R"("roughnessTexture": { "unit": 2 })") == std::vector<int>{50, 255});
 
+    const ConversionResult body =
+        shaded.convert("{ " + kBump + R"(, "subsurface": 0.5, "subsurfaceRadius": [1, 2, 3],
+            "subsurfaceTexture": { "unit": 2, "channels": "g" },
+            "subsurfaceRadiusTexture": { "unit": 1, "channels": "bgr" } })");
+    const Material& skin = soleMaterial(body);
+    REQUIRE(skin.detail);
+    CHECK(skin.detail->subsurface == 0.5f);
+    CHECK(skin.detail->subsurfaceRadius == Vec3(1.0f, 2.0f, 3.0f));
+    CHECK(texelOf(body, skin.detail->textures[kSubsurfaceRole])[0] == 60);
+    const std::vector<int> radius = texelOf(body, skin.detail->textures[kSubsurfaceRadiusRole]);
+    CHECK(std::vector<int>(radius.begin(), radius.begin() + 3) == std::vector<int>{30, 20, 10});
+    // Without their texture the parameters are those of a rule that does not name them.
+    CHECK_FALSE(soleMaterial(shaded.convert("{ " + kBump + R"(, "subsurface": 0.5,
+        "subsurfaceTexture": { "unit": 7, "optional": true } })"))
+                    .detail);
+
     const std::string alpha = R"("transmissionTexture": { "unit": 2, "channels": "a" })";
     SceneConverter converter;
     const ConversionInput input =

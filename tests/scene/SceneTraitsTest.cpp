@@ -90,6 +90,38 @@ TEST_CASE("scene traits: materials", "[scene]")
     CHECK(traitsOf(colored).vertexColors);
 }
 
+TEST_CASE("scene traits: the mere boundary of a medium casts no caustics", "[scene]")
+{
+    // MediumVolumes of the shape BOX are such boundaries.
+    MaterialDetail smoke;
+    smoke.interior.sigmaS = Vec3(0.5f);
+    Material boundary = glass(1.0f);
+    boundary.detail = std::make_shared<MaterialDetail>(smoke);
+    const SceneTraits traits = traitsOf(boundary);
+    CHECK(traits.scattering);
+    CHECK(traits.media);
+    CHECK_FALSE(traits.transmission);
+    CHECK_FALSE(traits.specular);
+    // Bodies that bend or tint light block what lights send straight.
+    boundary.ior = 1.3f;
+    CHECK(traitsOf(boundary).transmission);
+    boundary.ior = 1.0f;
+    boundary.baseColor = Vec3(0.9f);
+    CHECK(traitsOf(boundary).transmission);
+
+    const auto chosen = [&](const Material& material)
+    {
+        SceneBuilder builder;
+        builder.add(quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(0.5f)));
+        builder.add(quadMesh({0, 0, 1}, {1, 0, 0}, {0, 1, 0}), material);
+        builder.addQuadLight({0, 0, 2}, {0, 1, 0}, {1, 0, 0}, Vec3(1.0f));
+        return chooseIntegrator(IntegratorKind::Automatic, sceneTraits(*builder.scene));
+    };
+    CHECK(chosen(boundary) == IntegratorKind::PhotonCaustics);
+    boundary.baseColor = Vec3(1.0f);
+    CHECK(chosen(boundary) == IntegratorKind::Path);
+}
+
 TEST_CASE("scene traits: mips count where a material looks them up", "[scene]")
 {
     Scene scene;

@@ -119,6 +119,7 @@ struct SubsurfaceLanes
 {
     LaneMask hidden = 0; ///< lanes that light samples and photons find nothing on
     SubsurfaceSplit split[kLanes];
+    Vec3 sigma[kLanes]; ///< extinction below the surfaces [1/engine unit]
 };
 
 /// Leaves to the lanes of bounce.subsurface what their surfaces scatter by themselves.

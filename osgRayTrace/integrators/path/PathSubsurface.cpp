@@ -88,15 +88,15 @@ void setLeaving(Bounce& bounce, int i, const Bsdf& leaving, Vec3 color)
 
 /// Walks below the surface of a lane.
 SubsurfaceWalk walk(const Tile& tile, const PathBlock& block, const Bounce& bounce, int i,
-                    Vec3 color, Vec3 throughput)
+                    const SubsurfaceLanes& lanes, Vec3 throughput)
 {
     const SurfaceLanes& surface = bounce.surface;
     SubsurfaceEntry entry;
     entry.position = laneOf(trianglePoints(surface), i);
     entry.normal = laneOf(surface.geometricNormal, i);
     entry.offset = surface.offset[i];
-    entry.sigma = tile.context.traced->materials()[surface.material[i]].subsurfaceSigma;
-    entry.color = color;
+    entry.sigma = lanes.sigma[i];
+    entry.color = lanes.split[i].color;
     entry.throughput = throughput;
     entry.least = kRouletteThroughput / block.etaScale[i];
     entry.direction = numbersOf(tile, block, bounce.number, i, WalkDirection);
@@ -147,7 +147,12 @@ void partSubsurface(const Tile& tile, const PathBlock& block, Bounce& bounce,
     {
         Bsdf& bsdf = bounce.bsdfs[i];
         const ShadingFrame frame(laneOf(bounce.normal, i));
-        const Vec3 sigma = materials[bounce.surface.material[i]].subsurfaceSigma;
+        const uint32_t material = bounce.surface.material[i];
+        const Vec3 sigma = lanes.sigma[i] =
+            materials[material].radiusVaries
+                ? materials.subsurfaceSigma(
+                      material, materialPoint(tile.context, block.rays, bounce.surface, i))
+                : materials[material].subsurfaceSigma;
         lanes.split[i] = splitSubsurface(bsdf, frame.toLocal(-directionOf(block.rays.ray, i)),
                                          walkingChannels(sigma, bounce.surface.offset[i]));
         if (!(lanes.split[i].probability > 0.0f))
@@ -180,7 +185,7 @@ void walkBelowSurfaces(Tile& tile, PathBlock& block, Bounce& bounce, const Subsu
             continue;
         }
         const Vec3 entering = throughput * split.entering / p;
-        const SubsurfaceWalk walked = walk(tile, block, bounce, i, split.color, entering);
+        const SubsurfaceWalk walked = walk(tile, block, bounce, i, lanes, entering);
         tile.counts.secondaryRays += walked.rays;
         tile.counts.collisions += walked.collisions;
         if (walked.end == SubsurfaceWalk::End::Left)

@@ -15,7 +15,8 @@ PhotonUse photonUse(IntegratorKind kind);
 /// Returns wanted, or in place of Automatic the cheapest integrator that is right for the scene.
 /// Scenes of fixed-function materials get Whitted. Scenes with a physical material get path
 /// tracing, with photons for the caustics if there are lights and something is mirror-like or
-/// transmits, or if there are lights other than a sky and some metal is glossy.
+/// transmits (and is more than the boundary of a medium), or if there are lights other than a sky
+/// and some metal is glossy.
 IntegratorKind chooseIntegrator(IntegratorKind wanted, const SceneTraits& traits);
 
 /// Returns whether chooseIntegrator took photons for glossy metal alone: all light that they carry

@@ -18,7 +18,8 @@ static_assert(int(PhysicalMaterial::NUMBER_OF_TEXTURES) == int(kTextureRoles) &&
                   int(PhysicalMaterial::SHEEN_ROUGHNESS_TEXTURE) == int(kSheenRoughnessRole) &&
                   int(PhysicalMaterial::IRIDESCENCE_THICKNESS_TEXTURE) ==
                       int(kIridescenceThicknessRole) &&
-                  int(PhysicalMaterial::CLEARCOAT_NORMAL_TEXTURE) == int(kClearcoatNormalRole),
+                  int(PhysicalMaterial::CLEARCOAT_NORMAL_TEXTURE) == int(kClearcoatNormalRole) &&
+                  int(PhysicalMaterial::SUBSURFACE_RADIUS_TEXTURE) == int(kSubsurfaceRadiusRole),
               "the orders are the same");
 
 Vec3 rgb(const osg::Vec3& color)

@@ -81,6 +81,11 @@ private:
         if (parameter == "emission") return asks(kEmissionField) && !m.getEmissionTexture();
         if (parameter == "transmission")
             return asks(kTransmissionField) && !m.getTransmissionTexture();
+        if (parameter == "subsurface")
+            return asks(kSubsurfaceField) && !m.getTexture(PhysicalMaterial::SUBSURFACE_TEXTURE);
+        if (parameter == "subsurfaceRadius")
+            return asks(kSubsurfaceRadiusField) &&
+                   !m.getTexture(PhysicalMaterial::SUBSURFACE_RADIUS_TEXTURE);
         if (parameter == "metallic") return _lacksMetallic;
         if (parameter == "roughness") return _lacksRoughness;
         return false;
@@ -162,25 +167,38 @@ private:
         return texture ? texture : plain;
     }
 
+    /// Returns a texture whose red is one channel of a field's.
+    osg::Texture2D* redTexture(TextureField field)
+    {
+        const Found found = find(field);
+        if (!found.texture) return nullptr;
+        const ChannelSource red = channelOf(field, found, 0);
+        return red.channel == 0 && !red.invert ? const_cast<osg::Texture2D*>(found.texture)
+                                               : derived({red, {}, {}});
+    }
+
+    /// Returns a texture of three channels of a field's, which are no colours.
+    osg::Texture2D* dataTexture(TextureField field)
+    {
+        const Found found = find(field);
+        if (!found.texture) return nullptr;
+        const TextureSource& source = *_rule.textures[field];
+        if (source.channels == "rgb" && !source.invert)
+            return const_cast<osg::Texture2D*>(found.texture);
+        return derived(
+            {channelOf(field, found, 0), channelOf(field, found, 1), channelOf(field, found, 2)});
+    }
+
     void setTextures()
     {
         PhysicalMaterial& m = *_result.material;
         m.setBaseColorTexture(colorTexture(kBaseColorField));
         m.setEmissionTexture(colorTexture(kEmissionField));
-        if (const Found found = find(kTransmissionField); found.texture)
-        {
-            const ChannelSource red = channelOf(kTransmissionField, found, 0);
-            m.setTransmissionTexture(red.channel == 0 && !red.invert
-                                         ? const_cast<osg::Texture2D*>(found.texture)
-                                         : derived({red, {}, {}}));
-        }
-        if (const Found found = find(kNormalField); found.texture)
-            m.setTexture(
-                PhysicalMaterial::NORMAL_TEXTURE,
-                _rule.textures[kNormalField]->channels == "rgb"
-                    ? const_cast<osg::Texture2D*>(found.texture)
-                    : derived({channelOf(kNormalField, found, 0), channelOf(kNormalField, found, 1),
-                               channelOf(kNormalField, found, 2)}));
+        m.setTransmissionTexture(redTexture(kTransmissionField));
+        m.setTexture(PhysicalMaterial::SUBSURFACE_TEXTURE, redTexture(kSubsurfaceField));
+        m.setTexture(PhysicalMaterial::NORMAL_TEXTURE, dataTexture(kNormalField));
+        m.setTexture(PhysicalMaterial::SUBSURFACE_RADIUS_TEXTURE,
+                     dataTexture(kSubsurfaceRadiusField));
         if (_rule.textures[kMetallicRoughnessField])
             setMetallicRoughness();
         else

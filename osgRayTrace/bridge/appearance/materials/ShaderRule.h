@@ -81,6 +81,8 @@ enum TextureField : unsigned int
     kRoughnessField,
     kMetallicField,
     kNormalField,
+    kSubsurfaceField,
+    kSubsurfaceRadiusField,
     kTextureFields,
 };
 

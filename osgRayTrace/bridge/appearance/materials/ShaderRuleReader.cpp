@@ -57,10 +57,11 @@ struct TextureWord
 };
 
 constexpr TextureWord kTextures[kTextureFields] = {
-    {"baseColorTexture", ""},     {"emissionTexture", ""},
-    {"transmissionTexture", "r"}, {"metallicRoughnessTexture", "gb"},
-    {"roughnessTexture", "r"},    {"metallicTexture", "r"},
-    {"normalTexture", "rgb"}};
+    {"baseColorTexture", ""},          {"emissionTexture", ""},
+    {"transmissionTexture", "r"},      {"metallicRoughnessTexture", "gb"},
+    {"roughnessTexture", "r"},         {"metallicTexture", "r"},
+    {"normalTexture", "rgb"},          {"subsurfaceTexture", "r"},
+    {"subsurfaceRadiusTexture", "rgb"}};
 
 const Parameter kAlphaReference = {"alphaReference", 1, 0.0, 1.0, nullptr};
 const Parameter kLayer = {"layer", 1, 0.0, 65535.0, nullptr};
