@@ -139,3 +139,46 @@ TEST_CASE("disc edges: SPPM loses no light in corners", "[photons][statistics]")
     CHECK(before > 0.004);
     CHECK(std::abs(loss) < 0.003);
 }
+
+// A pixel may see a wall far from its edges first, and then the edge of a block before it. In a
+// closed room whose surfaces all shine and reflect alike the radiance is a geometric series
+// everywhere, and what is missing has been lost at edges. The standard error is 0.11 %, the bound
+// 3.5 of them. If pixels ask for edges by their first disc alone, 0.64 % is missing.
+TEST_CASE("disc edges: SPPM loses no light in pixels that see two surfaces",
+          "[photons][statistics]")
+{
+    constexpr int kWidth = 24, kBounces = 12;
+    constexpr double kAlbedo = 0.7;
+    Material wall = lambert(Vec3(float(kAlbedo)));
+    wall.emission = Vec3(1.0f);
+    SceneBuilder builder;
+    const Vec3 corner(1.0f);
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f})
+        {
+            Vec3 u(0.0f), v(0.0f), start(-1.0f);
+            u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2.0f;
+            start[axis] = side;
+            builder.addEmissive(side < 0.0f ? quadMesh(start, u, v) : quadMesh(start, v, u), wall);
+        }
+    for (int k = 0; k < 4; ++k)
+    {
+        const Vec3 low(-0.8f + 0.45f * float(k), -0.5f + 0.3f * float(k % 2), -0.2f);
+        builder.addEmissive(boxMesh(low, low + Vec3(0.2f, 0.6f, 0.2f)), wall);
+    }
+    const auto traced = builder.build();
+    const View view =
+        perspectiveView({0.05, 0.02, 0.95}, {0, 0, -1}, {0, 1, 0}, 60.0, kWidth, kWidth);
+    double truth = 0.0, term = 1.0;
+    for (int bounce = 0; bounce <= kBounces; ++bounce, term *= kAlbedo)
+        truth += term;
+    Estimate all;
+    for (uint32_t seed = 0; seed < 8; ++seed)
+    {
+        RenderOptions options = optionsOf(IntegratorKind::Sppm, kBounces, seed);
+        options.photons = 1 << 14;
+        all.add(double(render(traced, view, options, 32).mean().y) / truth);
+    }
+    CAPTURE(all.mean(), all.standardError());
+    CHECK(std::abs(all.mean() - 1.0) < 0.004);
+}

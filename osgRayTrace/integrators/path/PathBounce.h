@@ -205,6 +205,10 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
                       const PhotonQueryLanes& queries, const Vec3Lanes& discRadiance,
                       const FootprintSums& footprints);
 
+/// Returns whether the rays through the corners of a pixel of the tile meet a plane, as photons
+/// have to be on it that a look-up with this radius finds.
+bool cornersAreOn(Tile& tile, uint32_t pixel, const Plane& plane, float radius);
+
 /// Corrects the sums of discs at first hits that reach beyond the edge of their surface.
 void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
                   const PhotonQueryLanes& queries, PhotonSumLanes& sums);

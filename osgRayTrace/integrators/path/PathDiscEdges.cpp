@@ -6,9 +6,14 @@
 // is empty. Rays from a point above the disc's centre to points of the disc tell the share: a point
 // counts if its ray meets the plane of the disc there, and nothing before. Photons that such a ray
 // does not reach are left out, as are those behind a thin wall.
+//
+// Rays are spared in pixels that are far from edges. A pixel is one of these if its first disc is
+// on the surface and the pixel's corners see the plane of this disc: a pixel at the outline of a
+// block may see the wall behind it first.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/PixelProjection.h"
 
 #include <cmath>
 
@@ -103,6 +108,15 @@ Vec3 seenPower(Tile& tile, const GatherLanes& points, const Bounce& bounce, int 
     return power;
 }
 
+/// Returns whether a pixel sees nothing but the plane of one of its discs, as far as its corners
+/// tell. If it does not, the discs of its other surfaces may reach beyond an edge that this one is
+/// far from.
+bool seesPlaneAlone(Tile& tile, const PhotonQuery& disc, uint32_t pixel)
+{
+    const Plane plane{disc.normal, glm::dot(disc.normal, disc.position)};
+    return cornersAreOn(tile, pixel, plane, disc.radius);
+}
+
 } // namespace
 
 void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -120,9 +134,12 @@ void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
         SeenPlane& known = planes[block.flagsOf(i).pixel()];
         const bool through = !((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough();
         if (sums.count[i] == 0 || known.edge == DiscEdge::None || through) continue;
-        const Probe found = probe(tile, laneOf(queries, i), block.seed[i]);
+        const PhotonQuery disc = laneOf(queries, i);
+        const Probe found = probe(tile, disc, block.seed[i]);
         if (known.edge == DiscEdge::Unknown && tile.result.photons.gathered->choosesPlanes)
-            known.edge = found.share < 1.0f ? DiscEdge::Near : DiscEdge::None;
+            known.edge = found.share < 1.0f || !seesPlaneAlone(tile, disc, block.flagsOf(i).pixel())
+                             ? DiscEdge::Near
+                             : DiscEdge::None;
         if (!(found.share >= kLeastShare && found.share < 1.0f)) continue;
         setLane(points.wo, i, -directionOf(block.rays.ray, i));
         const Vec3 power =

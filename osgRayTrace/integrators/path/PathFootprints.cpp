@@ -91,9 +91,11 @@ bool isOn(const Plane& plane, float radius, Vec3 point, Vec3 normal)
            glm::dot(plane.normal, normal) >= kLeastNormalCosine;
 }
 
-/// Returns whether the rays through the corners of a pixel meet the plane.
-bool cornersAreOn(Tile& tile, PixelCorner pixel, const Plane& plane, float radius)
+} // namespace
+
+bool cornersAreOn(Tile& tile, uint32_t index, const Plane& plane, float radius)
 {
+    const PixelCorner pixel = cornerOf(tile, index);
     constexpr LaneMask kCorners = 0xf;
     const PixelProjection& projection = *tile.context.projection;
     const TracedScene& traced = *tile.context.traced;
@@ -117,6 +119,9 @@ bool cornersAreOn(Tile& tile, PixelCorner pixel, const Plane& plane, float radiu
             return false;
     return true;
 }
+
+namespace
+{
 
 /// Sums up the photons that the queries find in the pixels of their lanes.
 void addFound(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -171,7 +176,7 @@ SeenPlane planeToCompare(Tile& tile, uint32_t index, const Bounce& bounce,
     result.lookup = PixelLookup::Disc;
     if (!((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough()) return result;
     const Footprint footprint = footprintOf(projection, pixel, result.plane);
-    if (footprint.radius > 0.0f && cornersAreOn(tile, pixel, result.plane, footprint.radius))
+    if (footprint.radius > 0.0f && cornersAreOn(tile, index, result.plane, footprint.radius))
         result.lookup = PixelLookup::Compared;
     return result;
 }
