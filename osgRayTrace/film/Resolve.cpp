@@ -170,21 +170,6 @@ float decoded(float encoded, float alpha)
     return std::clamp(alpha * linearFromSrgb(encoded / alpha), -kLargest, kLargest);
 }
 
-/// Decodes to linear light; colours stay multiplied with alpha.
-void decode(TileRgba& values)
-{
-    for (RgbaLanes& block : values)
-    {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const float alpha = block.a[i] > 0.0f ? block.a[i] : 1.0f;
-            block.r[i] = decoded(block.r[i], alpha);
-            block.g[i] = decoded(block.g[i], alpha);
-            block.b[i] = decoded(block.b[i], alpha);
-        }
-    }
-}
-
 /// Calls write(image pixel index, block, lane) for each pixel of the tile inside the image.
 template <class Write> void forEachPixel(const Film& film, int tile, const Write& write)
 {
@@ -241,6 +226,20 @@ const float* depthOf(const Film& film, int tile)
 }
 
 } // namespace
+
+void decode(TileRgba& values)
+{
+    for (RgbaLanes& block : values)
+    {
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const float alpha = block.a[i] > 0.0f ? block.a[i] : 1.0f;
+            block.r[i] = decoded(block.r[i], alpha);
+            block.g[i] = decoded(block.g[i], alpha);
+            block.b[i] = decoded(block.b[i], alpha);
+        }
+    }
+}
 
 void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image)
 {

@@ -8,6 +8,9 @@
 namespace osgRayTrace::engine
 {
 
+/// Decodes display-referred values to linear light; colours stay multiplied with alpha.
+void decode(TileRgba& values);
+
 /// Writes the tile's part of an image of width*height*4 linear floats, row 0 at the bottom. A
 /// display-referred film is decoded to linear.
 void resolveTileRadiance(const Film& film, int tile, bool displayReferred, float* image);

@@ -32,6 +32,7 @@ class Workers;     // base: the threads that a render may use
 
 class PhotonPasses;
 class TileHelp;      // those who trace tiles elsewhere
+struct TileSamples;  // samples of single pixels
 struct SessionState; // the image, and what it is of
 
 /// The progressive image of one view. A session is not thread safe but for cancel(); different
@@ -172,6 +173,12 @@ public:
     /// Replaces these surfaces, in blocks of 4 x 4 pixels, by those that rays through the middles
     /// of the pixels meet. blocks: lower left pixels, each once. firstSurfaces() has been called.
     void findMiddles(const std::vector<std::pair<int, int>>& blocks);
+
+    /// Makes samples of single pixels of the image that are independent of those of the film, which
+    /// stays as it is. The pixels have one each before any has two. It ends early if shouldStop,
+    /// which any thread calls before each tile, returns true. There is an image, by an integrator
+    /// without photons.
+    void samplePixels(std::vector<TileSamples>& tiles, const std::function<bool()>& shouldStop);
 
     /// Makes the same view of another size, mostly a larger one, from an image and samples of this
     /// one's, filtered or not: see Upsample.h. Vectors of result that have the size already are

@@ -20,6 +20,8 @@
 namespace osgRayTrace::engine
 {
 
+struct TileSamples;
+
 struct SessionState
 {
     SessionState(std::shared_ptr<Workers> w, std::shared_ptr<PhotonPasses> p)
@@ -54,6 +56,9 @@ struct SessionState
                         const std::function<void(int)>& trace);
     void finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes);
     void preparePhotons(PassContext& context, int pass);
+    TileCounts sampleTile(const PassContext& context, const Integrator& integrator, int number,
+                          TileSamples& tile) const;
+    void samplePixels(std::vector<TileSamples>& tiles, const std::function<bool()>& shouldStop);
     ErrorEstimate estimateError() const;
     void addTileCounts();
     double imageShare() const;

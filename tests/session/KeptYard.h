@@ -137,6 +137,30 @@ inline bool samePixel(const std::vector<float>& a, const std::vector<float>& b, 
     return std::memcmp(&a[4 * pixel], &b[4 * pixel], 4 * sizeof(float)) == 0;
 }
 
+/// Holds frames of a scene that has just changed, after two pasts: so many passes of the scene
+/// before that no pixel that keeps some gets more. The frames differ where they hold what
+/// was kept, and only there.
+struct TwoPasts
+{
+    TwoPasts(const std::shared_ptr<const Scene>& before, const std::shared_ptr<const Scene>& after,
+             const View& view = yardView())
+    {
+        for (const int past : {0, 1})
+        {
+            Watcher watcher(traced(before));
+            for (int frame = 0; frame < (past == 0 ? 16 : 24); ++frame)
+                last[past] = watcher.show(view);
+            watcher.inputs.scene = traced(after);
+            kept[past] = watcher.show(view);
+            share = watcher.share();
+        }
+    }
+    bool tellApart(std::size_t pixel) const { return !samePixel(kept[0], kept[1], pixel); }
+
+    std::vector<float> last[2], kept[2]; ///< pictures before and after the change
+    double share = 0.0;                  ///< share of the pixels that hold what was kept
+};
+
 inline float brightness(const std::vector<float>& picture, std::size_t pixel)
 {
     return picture[4 * pixel] + picture[4 * pixel + 1] + picture[4 * pixel + 2];

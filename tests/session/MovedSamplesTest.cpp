@@ -187,15 +187,11 @@ TEST_CASE("moved samples: what a look at the light or the surface forbids is not
         Yard yard;
         edit(yard);
         const auto before = yard.at(0.0f), after = yard.at(step);
-        Watcher watcher(traced(before));
-        for (int frame = 0; frame < 4; ++frame)
-            watcher.show(view);
-        watcher.inputs.scene = traced(after);
-        const std::vector<float> picture = watcher.show(view), own = fresh(after, 1, 1, view);
+        const TwoPasts pasts(before, after, view);
         const std::vector<uint8_t> box = pixelsOf(yard.box, after, view);
         int taken = 0;
         for (std::size_t i = 0; i < box.size(); ++i)
-            taken += box[i] && !samePixel(picture, own, i);
+            taken += box[i] && pasts.tellApart(i);
         return double(taken) / double(std::count(box.begin(), box.end(), uint8_t(1)));
     };
     const auto materialOf = [](Yard& yard) -> Material&

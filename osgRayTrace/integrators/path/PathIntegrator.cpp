@@ -216,9 +216,12 @@ void tracePaths(Tile& tile, PhotonUse use)
     const PassContext& context = tile.context;
     const bool media = context.traced->traits().media;
     const MediumStack around = media ? bodiesAround(*context.traced, context.eye) : MediumStack();
+    const LaneMask* wanted = tile.result.wanted;
     for (int b = 0; b < kTileBlocks; ++b)
     {
         PathBlock& block = tile.paths.blocks[b];
+        block.active = wanted ? wanted[b] : kAllLanes;
+        if (!block.active) continue;
         cameraRayLanes(context.camera, context.pathKey, tile.left, tile.bottom, b,
                        context.throughCentres, block.rays, block.seed);
         if (context.traced->traits().mipmaps) cameraCones(context, block.rays.ray, block.cones);
@@ -230,14 +233,13 @@ void tracePaths(Tile& tile, PhotonUse use)
             block.bodies[i] = around;
             block.flags[i] = PathFlags::ofPixel(static_cast<uint32_t>(b * kLanes + i)).word();
         }
-        block.active = kAllLanes;
     }
     beginReuse(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
-            bounceBlock(tile, b, number, last, use);
+            if (tile.paths.blocks[b].active) bounceBlock(tile, b, number, last, use);
         compactPaths(tile.paths, context.traced->lights().tree() != nullptr);
     }
     connectPaths(tile);

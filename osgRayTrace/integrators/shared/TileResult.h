@@ -142,6 +142,10 @@ struct TileResult
     FirstHitOutputs firstHits;
     PhotonOutputs photons;
     DebugOutputs* debug = nullptr; ///< null: not wanted
+    /// The pixels that are wanted, as lanes of the tile's kTileBlocks blocks; null: all. The others
+    /// may be left out, and what rgba has of them means nothing. Passes that record first hits or
+    /// look up photons trace all pixels.
+    const LaneMask* wanted = nullptr;
 };
 
 } // namespace osgRayTrace::engine

@@ -22,6 +22,7 @@
 #include "osgRayTrace/integrators/shared/Panes.h"
 #include "osgRayTrace/integrators/whitted/WhittedTile.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -352,8 +353,11 @@ void WhittedIntegrator::renderTile(const PassContext& context, int left, int bot
                                    TileResult& result) const
 {
     WhittedTile tile(context, result);
+    const LaneMask* wanted = result.wanted;
     for (int first = 0; first < kTileBlocks; first += kGroup)
     {
+        const auto isWanted = [](LaneMask lanes) { return lanes != 0; };
+        if (wanted && std::none_of(wanted + first, wanted + first + kGroup, isWanted)) continue;
         traceCamera(tile, left, bottom, first);
         while (!tile.stack.empty())
             traceSecondary(tile);

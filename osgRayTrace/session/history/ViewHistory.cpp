@@ -9,6 +9,7 @@
 #include "osgRayTrace/film/Resolve.h"
 #include "osgRayTrace/scene/Scene.h"
 #include "osgRayTrace/session/RenderSession.h"
+#include "osgRayTrace/session/history/FreshSamples.h"
 #include "osgRayTrace/session/history/KeptSamples.h"
 
 #include <algorithm>
@@ -252,6 +253,7 @@ bool ViewHistory::keep(RenderSession& session, const SceneChange& change, float 
     _isKept = true;
     _most = most;
     _share = share;
+    _lackingPixels = lost;
     _seconds = secondsSince(begin);
     return true;
 }
@@ -263,6 +265,13 @@ void ViewHistory::followMoved(RenderSession& session, const Workers& workers)
     _share += static_cast<double>(followed) / static_cast<double>(_history.count.size());
     _blendedPasses = 0;
     _seconds += secondsSince(begin);
+}
+
+void ViewHistory::refresh(RenderSession& session, const std::function<bool()>& shouldStop,
+                          const Workers& workers)
+{
+    addFreshSamples(session, _most, shouldStop, workers, _history);
+    _blendedPasses = 0;
 }
 
 /// Finds the tiles in which pixels of _left have no samples. Returns the number of these pixels.

@@ -9,6 +9,8 @@
 #include "osgRayTrace/session/history/SceneChange.h"
 #include "osgRayTrace/session/image/ResolvedImage.h"
 
+#include <functional>
+
 namespace osgRayTrace::engine
 {
 
@@ -65,11 +67,18 @@ public:
     /// first pass or part of a pass that follows keep: see MovedSamples.
     void followMoved(RenderSession& session, const Workers& workers);
 
+    /// Traces more samples for the pixels that have few, after followMoved: see FreshSamples.h.
+    void refresh(RenderSession& session, const std::function<bool()>& shouldStop,
+                 const Workers& workers);
+
     /// Returns whether the history is of an earlier version of the scene.
     bool isKept() const { return _isKept; }
 
     /// Returns a mark for each tile of the session's image that has pixels without kept samples.
     const std::vector<uint8_t>& lackingTiles() const { return _lacking; }
+
+    /// Returns how many pixels keep no samples, those of objects that have moved among them.
+    std::size_t lackingPixels() const { return _lackingPixels; }
 
     /// Returns whether kept samples and the passes of tiles together make a whole image.
     bool isWhole(const RenderSession& session) const;
@@ -108,11 +117,12 @@ private:
     View _leftView;
     /// Mean of film and history for so many passes of the film's tiles; 0 passes: not known.
     std::vector<float> _blended;
-    int64_t _blendedPasses = 0;    ///< summed over the tiles
-    bool _taken = false;           ///< true between leave and enter
-    bool _isKept = false;          ///< whether the history is of an earlier version of the scene
-    float _most = kMostCount;      ///< largest count
-    std::vector<uint8_t> _lacking; ///< 1: the tile has pixels without kept samples
+    int64_t _blendedPasses = 0;     ///< summed over the tiles
+    bool _taken = false;            ///< true between leave and enter
+    bool _isKept = false;           ///< whether the history is of an earlier version of the scene
+    float _most = kMostCount;       ///< largest count
+    std::vector<uint8_t> _lacking;  ///< 1: the tile has pixels without kept samples
+    std::size_t _lackingPixels = 0; ///< pixels without kept samples
     double _share = 0.0;
     double _seconds = 0.0;
 };

@@ -119,15 +119,22 @@ void ImageStages::leaveView(RenderSession& session, const ImageInputs& next)
 }
 
 void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
-                            const RenderProgress& result)
+                            const RenderProgress& result, const std::function<bool()>& shouldStop)
 {
     const ThreadSeam::Entry inside(_seam);
+    _freshSeconds = 0.0;
     const bool kept = _isKeeping;
     _isKeeping = false;
     session.setContinuesView(false);
     const bool begun = result.restarted && result.status.ok(); // else the image is the last one
     if (kept && !begun) forgetKept();
-    if (kept && begun) _history.followMoved(session, *_workers);
+    if (kept && begun)
+    {
+        _history.followMoved(session, *_workers);
+        const double begin = _now();
+        _history.refresh(session, shouldStop, *_workers);
+        _freshSeconds = _now() - begin;
+    }
     if (result.restarted) _denoiser.forgetSurfaces();
     if (result.restarted && result.status.code != StatusCode::InvalidView)
     {

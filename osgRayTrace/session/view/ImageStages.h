@@ -55,13 +55,22 @@ public:
     /// Returns a mark for each tile that has pixels without kept samples.
     const std::vector<uint8_t>& lackingTiles() const { return _history.lackingTiles(); }
 
+    /// Returns how many pixels keep no samples.
+    std::size_t lackingPixels() const { return _history.lackingPixels(); }
+
     /// Gives up what keepView kept.
     void forgetKept();
 
     /// Returns in how many versions of the scene one after the other samples were kept.
     int versionsKept() const { return _versionsKept; }
 
-    void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result);
+    /// shouldStop, which any thread calls, ends the tracing of more samples for pixels that keep
+    /// few.
+    void enterView(RenderSession& session, const ImageInputs& next, const RenderProgress& result,
+                   const std::function<bool()>& shouldStop);
+
+    /// Returns the time that more samples took in the last enterView [s].
+    double freshSeconds() const { return _freshSeconds; }
 
     /// changes() returns true if the image that is shown is not the session's image as it is.
     /// willChange() returns true if that will be so as soon as the image has a whole pass.
@@ -119,6 +128,7 @@ private:
     ViewHistory _history;
     float _mostKept = 0.0f;
     bool _isKeeping = false; ///< true between keepView and enterView
+    double _freshSeconds = 0.0;
     int _versionsKept = 0;
     int _pause = 0; ///< versions of the scene for which nothing is tried, as little was kept
 

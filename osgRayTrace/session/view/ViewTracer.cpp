@@ -146,11 +146,13 @@ RenderProgress ViewTracer::render(RenderSession& session, int divider, StopRule&
     const bool writes = display && display->rgba && !stages.changes(session) &&
                         (display->holdsImage || !stages.willChange());
     const RenderProgress result = session.render(rule, {}, writes ? display : nullptr);
-    stages.enterView(session, inputs, result);
+    stages.enterView(session, inputs, result,
+                     [this] { return (_interrupt && _interrupt()) || secondsLeft() <= 0.0; });
     _status = result.status;
     _newTiles += result.newTiles;
-    const double seconds = _now() - start;
-    _frame.traceSeconds += seconds;
+    const double all = _now() - start;
+    _frame.traceSeconds += all;
+    const double seconds = all - stages.freshSeconds();
     _planner.recordTiles(divider, result.newTiles, seconds - result.photonSeconds);
     TracedPart::Passes& passes = divider > 1 ? _part.reduced : _part.full;
     passes.tiles += result.newTiles;

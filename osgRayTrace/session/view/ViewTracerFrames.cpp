@@ -3,8 +3,10 @@
 #include "osgRayTrace/session/view/ViewTracer.h"
 
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/session/history/FreshSamples.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace osgRayTrace::engine
 {
@@ -96,6 +98,7 @@ double ViewTracer::deadlineOf(double budget, bool moved, PresentCost presentCost
 
 void ViewTracer::traceFixed(int passes)
 {
+    _deadline = std::numeric_limits<double>::infinity();
     StopRule rule;
     rule.newPasses = passes;
     const bool continues = _displayState == DisplayState::Whole;
@@ -128,7 +131,9 @@ void ViewTracer::traceBudgeted(const FrameBudget& budget, bool moved)
 /// false if nothing is kept, or if there is no time for all tiles that lack kept samples.
 bool ViewTracer::traceKept(FrameSituation frame, double budget)
 {
-    constexpr double kMostShare = 0.9; // of the frame, for tiles that lack kept samples
+    constexpr double kMostShare = 0.9;    // of the frame, for tiles that lack kept samples
+    constexpr double kMostForFresh = 0.3; // of the frame, for more samples of pixels that keep few
+    constexpr double kSparse = 2.0;       // pixels here and there take longer than those of tiles
     if (_displayState != DisplayState::Whole || !_planner.knowsCosts()) return false;
     if (!_stages.keepView(*_session, {_scene, _view, _options})) return false;
     const std::vector<uint8_t>& lacking = _stages.lackingTiles();
@@ -140,6 +145,10 @@ bool ViewTracer::traceKept(FrameSituation frame, double budget)
         _stages.forgetKept();
         return false;
     }
+    const double perSample = kSparse * _planner.tileSeconds(1) / kTilePixels;
+    frame.seconds -=
+        std::min(kMostForFresh * frame.seconds,
+                 kMostFresh * static_cast<double>(_stages.lackingPixels()) * perSample);
     const double start = _now();
     StopRule rule;
     rule.firstTiles = &lacking;
