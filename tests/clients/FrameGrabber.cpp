@@ -17,6 +17,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -44,6 +45,8 @@ struct Recording
     std::map<const osg::GraphicsContext*, int> windows; ///< their numbers
     Clock::time_point begin;                            ///< of the present frame
     std::vector<double> milliseconds; ///< of each frame of the second half of the frames
+    std::vector<double> processor;    ///< processor time of all threads in these frames [ms]
+    double processorBegin = 0.0;      ///< of the present frame [ms]
     std::atomic<int> frame{0};
     std::atomic<osg::Timer_t> calls{0};
 };
@@ -78,6 +81,14 @@ template <typename Function> Function original(const char* symbol)
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, symbol));
 }
 
+/// Returns the processor time that all threads have taken [ms].
+double processorMilliseconds()
+{
+    timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 double median(std::vector<double> values)
 {
     if (values.empty()) return 0.0;
@@ -88,8 +99,8 @@ double median(std::vector<double> values)
 void writeCounts(const Recording& now, int frames)
 {
     std::ofstream(pictures() + ".txt")
-        << "frames " << frames << "\nmilliseconds " << median(now.milliseconds) << "\nwindows "
-        << now.windows.size() << '\n';
+        << "frames " << frames << "\nmilliseconds " << median(now.milliseconds) << "\nprocessor "
+        << median(now.processor) << "\nwindows " << now.windows.size() << '\n';
 }
 
 /// Records that a viewer begins a frame; returns whether it has drawn enough of them.
@@ -103,9 +114,14 @@ bool beginFrame(const void* viewer)
     now.frame = frame;
     const Clock::time_point last = now.begin;
     now.begin = Clock::now();
+    const double lastProcessor = now.processorBegin;
+    now.processorBegin = processorMilliseconds();
     if (frame > half + 1 && frame <= lastFrame() + 1)
+    {
         now.milliseconds.push_back(
             std::chrono::duration<double, std::milli>(now.begin - last).count());
+        now.processor.push_back(now.processorBegin - lastProcessor);
+    }
     if (frame == end) writeCounts(now, lastFrame());
     return frame >= end;
 }

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # times.sh [--build FOLDER] [--pairs N] [NAME ...] runs programs of clients.txt in which OSG draws everything, in
-# turns by themselves and with osgraytrace-run, and prints the medians of their frame times in milliseconds.
+# turns by themselves and with osgraytrace-run, and prints the medians of their frame times in milliseconds: on the
+# clock, and of the processor in all threads, which tells more on a busy machine.
 # SPDX-License-Identifier: MIT
 set -u
 HERE=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -30,18 +31,21 @@ time_of()
     OSGRAYTRACE_TEST_PICTURES=$WORK/run LD_PRELOAD=$BUILD/lib/libframeGrabber.so timeout 300 \
         "${start[@]}" "$@" >/dev/null 2>&1 </dev/null
     awk '$1 == "milliseconds" { print $2 }' "$WORK/run.txt" >>"$WORK/$how"
+    awk '$1 == "processor" { print $2 }' "$WORK/run.txt" >>"$WORK/$how.processor"
 }
 
 for name in "${NAMES[@]}"; do
     command=$(awk -F ' *[|] *' -v name="$name" '{ split($1, first, " ") } first[2] == name { print $2; exit }' \
         "$HERE/clients.txt")
     command=${command//MODELS/$WORK}
-    rm -f "$WORK/plain" "$WORK/traced"
+    rm -f "$WORK/plain" "$WORK/traced" "$WORK/plain.processor" "$WORK/traced.processor"
     for ((pair = 0; pair < PAIRS; ++pair)); do
         time_of plain $command
         time_of traced $command
     done
-    plain=$(median <"$WORK/plain") traced=$(median <"$WORK/traced")
-    awk -v name="$name" -v a="$plain" -v b="$traced" \
-        'BEGIN { printf "%-28s plain %.2f ms, traced %.2f ms: %.3f\n", name, a, b, b / a }'
+    for what in "" .processor; do
+        plain=$(median <"$WORK/plain$what") traced=$(median <"$WORK/traced$what")
+        awk -v name="$name${what/./, }" -v a="$plain" -v b="$traced" \
+            'BEGIN { printf "%-28s plain %.2f ms, traced %.2f ms: %.3f\n", name, a, b, b / a }'
+    done
 done
