@@ -19,7 +19,7 @@
 #include "osgRayTrace/accel/SubsurfaceWalk.h"
 
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/accel/SingleSurface.h"
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/sampling/Hash.h"
@@ -52,31 +52,6 @@ Vec2 numbersOf(uint32_t key, uint32_t collision, uint32_t use)
     const uint32_t first = hash(hash(key, collision), use);
     return {unitFloat(first), unitFloat(hash(first + 0x9e3779b9u))};
 }
-
-/// Holds the hit of one ray in the first lane of a block.
-struct SingleSurface
-{
-    SingleSurface(const TracedScene& traced, Vec3 origin, Vec3 direction, const Hit& hit)
-    {
-        for (int i = 0; i < kLanes; ++i)
-        {
-            setRay(block.ray, i, plainOf(origin), plainOf(direction), 0.0f, hit.t);
-            block.geometry[i] = block.instance[i] = kInvalid;
-            block.primitive[i] = 0;
-            block.u[i] = block.v[i] = 0.0f;
-        }
-        block.geometry[0] = hit.instance; // see hitInstance
-        block.primitive[0] = hit.primitive;
-        block.u[0] = hit.u;
-        block.v[0] = hit.v;
-        surfacesOf(traced.surfaces(), block, 1u, surface);
-    }
-
-    bool isFront() const { return (surface.front & 1u) != 0; }
-
-    RayHitBlock block;
-    SurfaceLanes surface;
-};
 
 /// What a flight comes to.
 enum class FlightEnd : uint8_t

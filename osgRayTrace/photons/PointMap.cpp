@@ -4,6 +4,8 @@
 
 #include "osgRayTrace/media/PhaseFunction.h"
 
+#include <algorithm>
+
 namespace osgRayTrace::engine
 {
 
@@ -28,6 +30,16 @@ LaneMask nodesAround(const BoxTree::Node& node, PlainVec3 centre, float radius)
 
 } // namespace
 
+CutBall cutBall(float depth)
+{
+    const float c = std::min(std::max(depth, 0.0f), 1.0f), c2 = c * c;
+    const float m0 = kPi * (2.0f / 3.0f + c - c * c2 / 3.0f);
+    const float m1 = kPi * 0.25f * (1.0f - c2) * (1.0f - c2);
+    const float m2 = kPi * (2.0f / 15.0f + c * c2 / 3.0f - c * c2 * c2 / 5.0f);
+    const float scale = 1.0f / (m0 * m2 - m1 * m1);
+    return {m2 * scale, -m1 * scale};
+}
+
 PointMap::PointMap(const std::vector<PhotonPoint>& points)
 {
     std::vector<ItemBox> boxes;
@@ -41,10 +53,13 @@ PointMap::PointMap(const std::vector<PhotonPoint>& points)
         _points.push_back(points[k]);
 }
 
-/// Returns the sum over the photons of the sphere of power times of(cosine), over its volume.
+/// Returns the sum over the photons of the sphere of power times of(cosine) and the kernel.
 template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const Scattered& of) const
 {
     const float radius2 = query.radius * query.radius;
+    const bool isCut = query.depth < query.radius;
+    const CutBall kernel = isCut ? cutBall(query.depth / query.radius) : CutBall{1.0f, 0.0f};
+    const Vec3 rise = query.inwards * (kernel.slope / query.radius);
     Vec3 sum(0.0f);
     _tree.visit([&](const BoxTree::Node& node)
                 { return nodesAround(node, plainOf(query.position), query.radius); },
@@ -55,11 +70,13 @@ template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const S
                         const PhotonPoint& point = _points[k];
                         const Vec3 off = point.position - query.position;
                         if (!(glm::dot(off, off) < radius2)) continue;
+                        if (!(glm::dot(off, query.inwards) > -query.depth)) continue;
                         if (point.medium != query.medium || point.edges > query.mostEdges) continue;
-                        sum += point.power * of(glm::dot(point.direction, query.towards));
+                        sum += point.power * (of(glm::dot(point.direction, query.towards)) *
+                                              (kernel.constant + glm::dot(off, rise)));
                     }
                 });
-    return sum / (4.0f / 3.0f * kPi * radius2 * query.radius);
+    return sum / ((isCut ? 1.0f : 4.0f / 3.0f * kPi) * radius2 * query.radius);
 }
 
 Vec3 PointMap::gather(const PointQuery& query) const

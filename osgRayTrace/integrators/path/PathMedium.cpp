@@ -14,6 +14,7 @@
 #include "osgRayTrace/integrators/path/PathMediumWalk.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/SingleSurface.h"
 #include "osgRayTrace/integrators/shared/FirstHit.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/Panes.h"
@@ -100,16 +101,41 @@ void MediumWalk::addPhotonBeams(int step)
     addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
 }
 
+/// Sets the boundary of the medium that is next to a collision: the surface that the ray has come
+/// from, or the one that it would meet.
+void MediumWalk::findBoundary(int i, float distance, PointQuery& query)
+{
+    const Vec3 direction = -query.towards;
+    const auto keep = [&](Vec3 normal, float away, float side)
+    {
+        const float cosine = glm::dot(normal, direction), depth = std::fabs(cosine) * away;
+        if (!(depth < query.depth)) return;
+        query.depth = depth;
+        query.inwards = cosine * side < 0.0f ? -normal : normal;
+    };
+    if (hasHit(i))
+        keep(laneOf(_surface.geometricNormal, i), _block.rays.ray.tFar[i] - distance, -1.0f);
+    const auto hit =
+        _traced.intersector().closestHit(query.position, query.towards, 0.0f, kInfinity, {});
+    ++_tile.counts.secondaryRays;
+    if (!hit) return;
+    const SingleSurface met(_traced, query.position, query.towards, *hit);
+    keep(laneOf(met.surface.geometricNormal, 0), hit->t, 1.0f);
+}
+
 /// Adds the light that photons bring to a collision of a path that has looked up none before.
 /// throughput: after the collision with a homogeneous medium, or before that with what is here.
-void MediumWalk::addPhotonPoints(int i, Vec3 point, Vec3 throughput, const Scatterers* here)
+void MediumWalk::addPhotonPoints(int i, float distance, Vec3 throughput, const Scatterers* here)
 {
     const PassContext& context = _tile.context;
     if (_use == PhotonUse::None || !context.volumePhotons || _block.flagsOf(i).hasTaken()) return;
+    const RayBlock& ray = _block.rays.ray;
     PointQuery query;
-    query.position = point;
-    query.towards = -directionOf(_block.rays.ray, i);
+    query.towards = -directionOf(ray, i);
+    query.position =
+        Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) - query.towards * distance;
     query.radius = context.pointRadius;
+    if (!here) findBoundary(i, distance, query);
     query.medium = _segments.media[i];
     query.phase = _media[query.medium].phase;
     query.mostEdges = static_cast<uint32_t>(context.options.maxBounces - _number);
@@ -181,7 +207,7 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const RayBlock& ray = _block.rays.ray;
     const Vec3 before = directionOf(ray, i);
     const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    if (medium.isDense || _causticsAlone) addPhotonPoints(i, point, throughput);
+    if (medium.isDense || _causticsAlone) addPhotonPoints(i, distance, throughput);
     const float found = collisionProbability(_tile.context, _segments, i);
     if (!survives(i, throughput)) return End::Dies;
     const Vec2 u = numbers.at(MediumPhase);

@@ -13,6 +13,8 @@
 namespace osgRayTrace::engine
 {
 
+struct PointQuery;
+
 /// Takes the paths of a block to the surfaces that they meet next. A walk is of one thread.
 class MediumWalk
 {
@@ -56,7 +58,8 @@ private:
     void findGrids(int i, Vec3 origin, float end);
     void addLight();
     void addPhotonBeams(int step);
-    void addPhotonPoints(int i, Vec3 point, Vec3 throughput, const Scatterers* here = nullptr);
+    void addPhotonPoints(int i, float distance, Vec3 throughput, const Scatterers* here = nullptr);
+    void findBoundary(int i, float distance, PointQuery& query);
     PathFlags flagsAfterCollision(int i) const;
     End travel(int i);
     End travelGrids(int i, const GridRay& grids);
