@@ -19,7 +19,7 @@ WALLS = {"right wall": (0.12, 0.45, 0.15), "left wall": (0.65, 0.05, 0.05)}
 WHITE = (0.73, 0.73, 0.73)
 LAMP = ((343, 548.8, 227), (343, 548.8, 332), (213, 548.8, 332), (213, 548.8, 227))
 RADIANCE = (17, 12, 4)
-BALL = (278, 274.4, 279.6), 490  # around the scene: the fog ends there
+BALL = (278, 274.4, 279.6), 480.5  # around the scene: the fog ends there
 BOUNCES = 32
 
 RIGHT = numpy.cross(numpy.subtract(CENTER, EYE) / 800.0, UP)
@@ -43,7 +43,8 @@ def world(parts):
         text += f'Material "matte" "rgb Kd" {pbrtMedia.words(color)}\n'
         text += pbrtMedia.mesh(points, faces)
     lamp = pbrtMedia.mesh([TURN @ corner for corner in LAMP], [(0, 1, 2, 3)])
-    text += f'AttributeBegin\nAreaLightSource "diffuse" "rgb L" {pbrtMedia.words(RADIANCE)}\n'
+    text += 'AttributeBegin\nMaterial "matte" "rgb Kd" [0 0 0]\n'  # lamps of ours reflect nothing
+    text += f'AreaLightSource "diffuse" "rgb L" {pbrtMedia.words(RADIANCE)}\n'
     return text + lamp + "AttributeEnd\n"
 
 
