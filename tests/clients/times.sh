@@ -22,16 +22,21 @@ median()
     sort -g | awk '{ value[NR] = $1 } END { print value[int((NR + 1) / 2)] }'
 }
 
-# time_of HOW COMMAND... runs the command and adds its median to WORK/HOW.
+# time_of HOW COMMAND... runs the command and adds its median to WORK/HOW. A program without frame times ends all.
 time_of()
 {
     local how=$1 start=()
     shift
     [ "$how" = plain ] || start=("$BUILD/bin/osgraytrace-run")
+    rm -f "$WORK/run.txt"
     OSGRAYTRACE_TEST_PICTURES=$WORK/run LD_PRELOAD=$BUILD/lib/libframeGrabber.so timeout 300 \
         "${start[@]}" "$@" >/dev/null 2>&1 </dev/null
-    awk '$1 == "milliseconds" { print $2 }' "$WORK/run.txt" >>"$WORK/$how"
-    awk '$1 == "processor" { print $2 }' "$WORK/run.txt" >>"$WORK/$how.processor"
+    local wall processor
+    wall=$(awk '$1 == "milliseconds" && $2 > 0 { print $2 }' "$WORK/run.txt" 2>/dev/null)
+    processor=$(awk '$1 == "processor" && $2 > 0 { print $2 }' "$WORK/run.txt" 2>/dev/null)
+    [ -n "$wall" ] && [ -n "$processor" ] || { echo "no frame times, $how: $*" >&2; exit 2; }
+    echo "$wall" >>"$WORK/$how"
+    echo "$processor" >>"$WORK/$how.processor"
 }
 
 for name in "${NAMES[@]}"; do

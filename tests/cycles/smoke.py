@@ -22,7 +22,7 @@ sky.write(SKY, sky.outdoors())
 noise.run(
     ["osgconv", "-O", f"extinction={cloud.EXTINCTION}", VOLUME, SCENE],
     SCENE + ".log",
-    env=noise.libraries(OPTIONS),
+    env=noise.libraries(OPTIONS.build),
 )
 TASK = {
     "script": "smokeInBlender.py",

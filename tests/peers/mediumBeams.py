@@ -1,27 +1,26 @@
-# mediumBeams.py - how fast light that a glass ball gathers in fog converges beside Tungsten's beams.
+# mediumBeams.py - how fast light that a glass ball gathers in gas converges beside Tungsten's.
 # SPDX-License-Identifier: MIT
 """A closed room is full of gas, with a glass ball under a small lamp. Each renderer gets numbers of
-passes and one thread. relMSE is that of noise.py against our long picture, without the pixels around
-the lamp, which is smaller than one. The table has relMSE and processor seconds, less those of the
+passes and one thread. relMSE is that of noise.py against our long picture, without the pixels
+around the lamp, which is smaller than one. The table has relMSE and processor seconds, less those of the
 fewest passes, and when 3e-3 is reached, by powers between the rows. What is beyond them is a guess.
-The program tungsten is the one of the variable OSGRAYTRACE_TUNGSTEN, or that of the path."""
+The exit code is 2 if a program failed, or if its passes are too few to be timed."""
 import json
 import os
-import shutil
-import sys
 
 import mediumTable
 import noise
 import numpy
 import osgText
+import pfm
 
-TUNGSTEN = os.environ.get("OSGRAYTRACE_TUNGSTEN") or shutil.which("tungsten")
 LOW, HIGH = (-1.0, 0.0, -1.0), (1.0, 2.0, 2.6)  # corners of the room [m]
 BALL, RADIUS, INDEX = (0.1, 1.15, 0.0), 0.35, 1.5
 LAMP, SIDE, RADIANCE = (0.0, 1.98, 0.0), 0.01, (2e4, 1.8e4, 1.5e4)
 SCATTERING, ABSORPTION = 0.4, 0.02
 EYE, CENTER, FOVY = (0.0, 1.0, 2.5), (0.0, 1.0, 0.0), 50.0
 BOUNCES, TARGET = 16, 3e-3
+RENDERERS = ["sppm", "photon-caustics", "tungsten", "path"]
 
 
 def walls():
@@ -129,9 +128,9 @@ def tungsten(options, photons, radius):
 
     def render(file, passes, seed):
         writeTungsten(file, options.albedo, options.size, passes, photons, radius)
-        command = [TUNGSTEN, "-t", "1", "-s", str(seed), file + ".json"]
-        seconds = mediumTable.measured(command, file + ".log")
-        numpy.save(file, mediumTable.pfmArray(file + ".pfm"))
+        command = [options.tungsten, "-t", "1", "-s", str(seed), file + ".json"]
+        seconds = noise.run(command, file + ".log")
+        numpy.save(file, pfm.read(file + ".pfm"))
         return seconds
 
     return render
@@ -146,13 +145,15 @@ def ours(options, scene, integrator):
 
 def reached(seconds, errors):
     """Returns when the target is reached, along straight lines of logarithms, the last one of which
-    goes on."""
+    goes on; infinity if it does not fall."""
     t, e = numpy.log(seconds), numpy.log(errors)
     for k in range(len(t) - 1):
         if e[k + 1] <= numpy.log(TARGET) or k == len(t) - 2:
+            if e[k + 1] >= e[k]:
+                return numpy.inf
             share = (numpy.log(TARGET) - e[k]) / (e[k + 1] - e[k])
             return float(numpy.exp(t[k] + share * (t[k + 1] - t[k])))
-    return None
+    return numpy.inf
 
 
 def withoutLamp(picture, reference):
@@ -177,13 +178,15 @@ def table(options, name, render, counts, reference):
             found.append((used - start, noise.errors(picture, reference, [])[0]))
             means.append(numpy.median(picture / reference))
         seconds.append(numpy.mean([pair[0] for pair in found]) * count / (count - 1))
+        if seconds[-1] <= 0:
+            noise.fail(f"{name}: {count} passes take no longer than one")
         errors.append(numpy.mean([pair[1] for pair in found]))
         print(f"| {name} | {count} | {seconds[-1]:.2f} | {errors[-1]:.5f} |", flush=True)
     print(f"{name}: relMSE {TARGET} after {reached(seconds, errors):.2f} s; ", end="")
     print(f"median over the long picture {numpy.mean(means):.4f}", flush=True)
 
 
-def main():
+def parseArguments():
     parser = noise.argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", default=os.path.join(noise.HERE, "../../build/release"))
     parser.add_argument("--out", default="out/beams")
@@ -194,18 +197,26 @@ def main():
     parser.add_argument("--counts", type=int, nargs="+", default=[2, 4, 16, 64])
     parser.add_argument("--longest", type=int, default=2048)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--only", default="sppm,photon-caustics,tungsten,path")
+    parser.add_argument("--tungsten", default="tungsten", help="the program")
+    parser.add_argument("--only", nargs="+", choices=RENDERERS, default=RENDERERS)
     options = parser.parse_args()
-    if not TUNGSTEN or not os.path.exists(TUNGSTEN):
-        print("skipped: there is no Tungsten; OSGRAYTRACE_TUNGSTEN names the program")
-        sys.exit(77)
+    options.counts = sorted(set(options.counts))
+    if len(options.counts) < 2 or options.counts[0] < 2:
+        parser.error("--counts wants at least two numbers of passes, of 2 and more")
+    noise.need(options.tungsten, "--tungsten names the program")
+    return options
+
+
+def main():
+    options = parseArguments()
     noise.needBlender()
     os.makedirs(options.out, exist_ok=True)
     scene = os.path.abspath(os.path.join(options.out, "ball.osgt"))
     writeOurs(scene, options.albedo)
     print("| renderer | passes | s | relMSE |\n| --- | --- | --- | --- |")
     photons = ours(options, scene, "sppm")
-    long = os.path.join(os.path.abspath(options.out), "reference")
+    made = f"reference-{options.size}-{options.albedo:g}-{options.longest}"
+    long = os.path.join(os.path.abspath(options.out), made)
     if not os.path.exists(long + ".npy"):
         photons(long, options.longest, 1000)
     reference = noise.load(long)
@@ -215,7 +226,7 @@ def main():
         "tungsten": (tungsten(options, options.photons, options.radius), options.counts),
         "path": (ours(options, scene, "path"), options.counts[-2:]),
     }
-    for name in options.only.split(","):
+    for name in options.only:
         table(options, name, *renderers[name], reference)
 
 

@@ -1,7 +1,7 @@
 # mediumFlights.py - the noise of a lamp in fog with points along rays by angle and by free flights.
 # SPDX-License-Identifier: MIT
-"""Free flights take another build of osgRayTrace: docs/media.md has the lines that it differs by. Its
-folder is the argument --flights; without it the program ends with 77."""
+"""Free flights take another build of osgRayTrace: docs/media.md has the lines that it differs by.
+Its folder is the argument --flights; without it the program ends with 77."""
 import os
 import sys
 
@@ -11,15 +11,16 @@ import osgText
 
 parser = noise.argparse.ArgumentParser(description=__doc__)
 parser.add_argument("--build", default=os.path.join(noise.HERE, "../../build/release"))
-parser.add_argument("--flights", default="/nowhere", help="a build with free flights")
+parser.add_argument("--flights", help="a build with free flights")
 parser.add_argument("--out", default="out/flights")
 parser.add_argument("--size", type=int, default=100)
 parser.add_argument("--reference", type=int, default=1024)
 OPTIONS = parser.parse_args()
-if not os.path.exists(os.path.join(OPTIONS.flights, "bin/osgraytrace")):
-    print("skipped: --flights names no build")
+if not OPTIONS.flights:
+    print("skipped: there is no build with free flights; --flights names its folder")
     sys.exit(77)
 noise.needBlender()
+CODE = 0
 os.makedirs(OPTIONS.out, exist_ok=True)
 VIEW = ["--eye", "0", "0", "0", "--center", "1", "0", "0", "--up", "0", "0", "1", "--fovy", "40"]
 for extinction, intensity, bounces in ((0.1, 100, 1), (0.1, 100, 9), (1, 1000, 1)):
@@ -39,12 +40,10 @@ for extinction, intensity, bounces in ((0.1, 100, 1), (0.1, 100, 9), (1, 1000, 1
         )
 
     print(f"extinction {extinction}, max-bounces {bounces}")
-    mediumTable.compare(
-        OPTIONS,
-        {
-            "flights": flights("plain"),
-            "flights that collide": flights("f"),
-            "ours": mediumTable.ours(scene, OPTIONS, bounces, *arguments),
-        },
-        one_reference=True,
-    )
+    RENDERERS = {
+        "flights": flights("plain"),
+        "flights that collide": flights("f"),
+        "ours": mediumTable.ours(scene, OPTIONS, bounces, *arguments),
+    }
+    CODE = max(CODE, mediumTable.compare(OPTIONS, RENDERERS, one_reference=True))
+sys.exit(CODE)

@@ -48,12 +48,12 @@ def world(parts):
     return text + lamp + "AttributeEnd\n"
 
 
-OPTIONS = noise.parseArguments(__doc__, "fog")
-pbrtMedia.need()
+OPTIONS = noise.parseArguments(__doc__, "fog", "pbrt")
+noise.need(OPTIONS.pbrt, "--pbrt names the program of pbrt-v3")
 noise.needBlender()
 SCENE = noise.inData("cornell_box_fog.osgt")
 OBJ = os.path.abspath(os.path.join(OPTIONS.out, "scene.obj"))
-noise.run(["osgconv", SCENE, OBJ], OBJ + ".log", env=noise.libraries(OPTIONS))
+noise.run(["osgconv", SCENE, OBJ], OBJ + ".log", env=noise.libraries(OPTIONS.build))
 VIEW = {"eye": TURN @ EYE, "center": TURN @ CENTER, "up": TURN @ UP, "fovy": FOVY}
 RENDERERS = {
     "pbrt": pbrtMedia.renderer(world(objParts.readParts(OBJ)), VIEW, OPTIONS, BOUNCES),

@@ -54,8 +54,8 @@ def world(sky_file):
     )
 
 
-OPTIONS = noise.parseArguments(__doc__, "smoke")
-pbrtMedia.need()
+OPTIONS = noise.parseArguments(__doc__, "smoke", "pbrt")
+noise.need(OPTIONS.pbrt, "--pbrt names the program of pbrt-v3")
 noise.needBlender()
 try:
     import pyopenvdb
@@ -70,7 +70,7 @@ writeSky(SKY + ".pfm", radianceOf(SKY))
 noise.run(
     ["osgconv", "-O", f"extinction={cloud.EXTINCTION}", VOLUME, SCENE],
     SCENE + ".log",
-    env=noise.libraries(OPTIONS),
+    env=noise.libraries(OPTIONS.build),
 )
 VIEW = {"eye": cloud.EYE, "center": (0.5, 0.5, 0.5), "up": (0, 0, 1), "fovy": cloud.FOVY}
 OURS = ["--integrator", "path", "--environment", SKY, *cloud.view()]

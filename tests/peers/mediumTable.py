@@ -1,8 +1,8 @@
-# mediumTable.py - the noise of pictures of media by several renderers; for the scripts of this folder.
+# mediumTable.py - the noise of pictures of media by several renderers; for scripts of this folder.
 # SPDX-License-Identifier: MIT
 """What is compared, and how, is told by tests/cycles/noise.py. A renderer is a function that renders
-noise.pictures(options, name), which it gets, as arrays of NumPy, and returns the processor seconds of
-each."""
+noise.pictures(options, name), which it gets, as arrays of NumPy, and returns the processor seconds
+of each."""
 import os
 import sys
 
@@ -16,7 +16,7 @@ def ours(scene, options, bounces, *arguments, build=None, environment=None, arra
     """Returns a renderer that is osgraytrace. build: another build than that of the options; the
     environment has more variables for it. arrays: makes arrays of .exr files; by default Blender
     does."""
-    build = os.path.abspath(build or options.build)
+    build = build or options.build
 
     def render(pictures):
         seconds = []
@@ -24,10 +24,8 @@ def ours(scene, options, bounces, *arguments, build=None, environment=None, arra
             command = [os.path.join(build, "bin/osgraytrace"), scene, "-o", file + ".exr"]
             command += ["--size", str(options.size), str(options.size), "--passes", str(samples)]
             command += ["--seed", str(seed), "--threads", "1", "--max-bounces", str(bounces)]
-            folder = os.path.join(build, "lib")
-            libraries = {"OSG_LIBRARY_PATH": f"{folder}:{folder}/osgPlugins-3.6.5"}
-            variables = {**os.environ, **libraries, **(environment or {})}
-            seconds.append(measured([*command, *arguments], file + ".log", env=variables))
+            variables = {**noise.libraries(build), **(environment or {})}
+            seconds.append(noise.run([*command, *arguments], file + ".log", env=variables))
         files = [file + ".exr" for file, _, _ in pictures]
         (arrays or blenderArrays)(files, options)
         return seconds
@@ -35,31 +33,14 @@ def ours(scene, options, bounces, *arguments, build=None, environment=None, arra
     return render
 
 
-def measured(command, log, **keywords):
-    """Runs a program, and returns its processor seconds."""
-    before = noise.resource.getrusage(noise.resource.RUSAGE_CHILDREN)
-    noise.run(command, log, **keywords)
-    after = noise.resource.getrusage(noise.resource.RUSAGE_CHILDREN)
-    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
-
-
 def blenderArrays(files, options):
     noise.runBlender("fogInBlender.py", {"convert": files}, options, "convert")
 
 
-def pfmArray(file):
-    """Returns the picture of a .pfm file, the lowest row first."""
-    with open(file, "rb") as data:
-        data.readline()
-        width, height = (int(word) for word in data.readline().split())
-        order = "<" if float(data.readline()) < 0 else ">"
-        values = numpy.frombuffer(data.read(), order + "f4")
-    return values.reshape(height, width, 3).astype(numpy.float32)
-
-
 def compare(options, renderers, one_reference=False):
     """Prints a table with a row for each renderer; the last one is what the others are compared
-    with. one_reference: the long picture of the last one is right for all."""
+    with. one_reference: the long picture of the last one is right for all. Returns 1 if a mean
+    differs from that of the last one (noise.differs), else 0."""
     results, references = {}, {}
     for name, render in reversed(renderers.items()):
         long = noise.pictures(options, name)[:1]
@@ -78,11 +59,16 @@ def compare(options, renderers, one_reference=False):
         product = numpy.mean(found) * each * noise.MANY
         if one_reference:
             reference = numpy.mean(many, axis=0)
-        results[name] = product, reference.mean((0, 1))
+        samples = len(many) * noise.MANY if one_reference else options.reference
+        spread = noise.spreadOf(many, samples)
+        results[name] = product, reference.mean((0, 1)), spread
         row = [f"{number:.3g}" for number in (numpy.mean(found), each * noise.MANY, product)]
         print(f"| {name} | {' | '.join(row)} | {reference.mean():.5f} |", flush=True)
-    last, mean = list(results.values())[-1]
-    for name, (product, other) in list(results.items())[:-1]:
+    last, mean, known = list(results.values())[-1]
+    different = False
+    for name, (product, other, spread) in list(results.items())[:-1]:
         print(f"{name}: relMSE x s is {product / last:.2f} times ours, means over ours", end=" ")
-        print((other / mean).round(4), flush=True)
-    return 0
+        wrong = noise.differs(other.mean() / mean.mean(), max(spread, known))
+        different = different or wrong
+        print((other / mean).round(4), "differs" * wrong, flush=True)
+    return 1 if different else 0

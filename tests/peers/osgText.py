@@ -1,6 +1,6 @@
-# osgText.py - writes small scenes in OSG's text format; for scripts that compare with other renderers.
+# osgText.py - writes small scenes in OSG's text format; for scripts beside other renderers.
 # SPDX-License-Identifier: MIT
-"""Each function returns the text of a node. scene() gives what osgraytrace reads."""
+"""Functions return the texts of nodes, materials and media; write() makes a file of nodes."""
 import itertools
 
 NUMBERS = itertools.count(1)

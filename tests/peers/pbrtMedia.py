@@ -1,35 +1,22 @@
-# pbrtMedia.py - writes scenes with media for pbrt-v3, and renders them; for the scripts of this folder.
+# pbrtMedia.py - writes scenes with media for pbrt-v3, and renders them; for scripts of this folder.
 # SPDX-License-Identifier: MIT
-"""The program pbrt is the one of the variable OSGRAYTRACE_PBRT, or that of the path. Its samplers have
-no seeds, so that each picture is rendered once: the long one with random numbers, the others with
-its (0,2) sequence, which, unlike Halton's, has no end."""
-import os
-import shutil
-import sys
-
-import mediumTable
+"""Its samplers have no seeds, so that each picture is rendered once: the long one with random
+numbers, the others with its (0,2) sequence, which, unlike Halton's, has no end."""
 import noise
 import numpy
-
-PBRT = os.environ.get("OSGRAYTRACE_PBRT") or shutil.which("pbrt")
-
-
-def need():
-    """Ends the program, with 77, if there is no pbrt."""
-    if not PBRT or not os.path.exists(PBRT):
-        print("skipped: there is no pbrt; OSGRAYTRACE_PBRT names the program of pbrt-v3")
-        sys.exit(77)
+import pbrtScene
+import pfm
+import sceneFile
 
 
 def words(values):
-    return "[" + " ".join(f"{value:.9g}" for value in numpy.ravel(values)) + "]"
+    return f"[{sceneFile.text(values)}]"
 
 
 def mesh(points, faces):
     """Returns the shape of triangles that fan out from the first corner of each face."""
     triangles = [(f[0], f[k], f[k + 1]) for f in faces for k in range(1, len(f) - 1)]
-    indices = " ".join(str(index) for index in numpy.ravel(triangles))
-    return f'Shape "trianglemesh" "integer indices" [{indices}] "point P" {words(points)}\n'
+    return pbrtScene.mesh(points, triangles)
 
 
 def boundary(inside, shape):
@@ -39,7 +26,7 @@ def boundary(inside, shape):
 
 def write(file, world, view, size, samples, sampler, depth):
     """view: eye, center, up, fovy."""
-    look = " ".join(words(view[name])[1:-1] for name in ("eye", "center", "up"))
+    look = " ".join(sceneFile.text(view[name]) for name in ("eye", "center", "up"))
     with open(file + ".pbrt", "w", encoding="utf-8") as text:
         text.write(
             f'Integrator "volpath" "integer maxdepth" [{depth}]\n'
@@ -62,9 +49,9 @@ def renderer(world, view, options, depth):
             if samples not in done:
                 sampler = "random" if file.endswith("reference") else "02sequence"
                 write(file, world, view, options.size, samples, sampler, depth)
-                command = [PBRT, "--quiet", "--nthreads=1", file + ".pbrt"]
-                used = mediumTable.measured(command, file + ".log")
-                done[samples] = used, mediumTable.pfmArray(file + ".pfm")
+                command = [options.pbrt, "--quiet", "--nthreads=1", file + ".pbrt"]
+                used = noise.run(command, file + ".log")
+                done[samples] = used, pfm.read(file + ".pfm")
             seconds.append(done[samples][0])
             numpy.save(file, done[samples][1])
         return seconds

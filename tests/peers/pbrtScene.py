@@ -1,4 +1,4 @@
-# pbrtScene.py - writes a scene for pbrt-v3, and reads its pictures.
+# pbrtScene.py - writes a scene for pbrt-v3.
 # SPDX-License-Identifier: MIT
 """See sceneFile.py for what a scene is. Lamps are black parallelograms that shine to one side, as
 ours. "disney" of pbrt's with metallic 1 is GGX below Schlick's Fresnel term, as our metal is; its
@@ -56,14 +56,3 @@ def write(file, scene, picture, size, samples, integrator):
         lines.append(mesh(corners, (0, 1, 2, 0, 2, 3)) + "AttributeEnd\n")
     with open(file, "w", encoding="utf-8") as out:
         out.write("".join(lines) + "WorldEnd\n")
-
-
-def read(picture):
-    """Returns the pixels of a .pfm file, the lowest row first."""
-    with open(picture, "rb") as data:
-        kind, size, scale = (data.readline().split() for _ in range(3))
-        if kind != [b"PF"]:
-            raise ValueError(f"{picture} has no colours")
-        order = "<f4" if float(scale[0]) < 0 else ">f4"
-        width, height = (int(it) for it in size)
-        return numpy.frombuffer(data.read(), order).reshape(height, width, 3).astype(float)

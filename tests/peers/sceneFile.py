@@ -5,8 +5,14 @@
 dictionaries with points (n x 3), triangles (m x 3), normals (n x 3, or None: flat) and material;
 "lamps" is a list of corner, u, v and radiance. A material has kind, which is "diffuse", "metal" or
 "glass", color, and roughness (metal) or ior (glass). Lengths and coordinates are the file's, with
-all transforms applied."""
+all transforms applied. What a scene has besides raises ValueError: other renderers would not get
+it."""
 import numpy
+
+NODES = {"osg::Group", "osg::MatrixTransform", "osg::Geode", "osg::ClearNode", "osg::CameraView"}
+ATTRIBUTES = {"osg::LightModel", "osg::Material", "osgRayTrace::PhysicalMaterial"}
+FIELDS = {"UniqueID", "Name", "BaseColor", "Roughness", "Metallic", "Transmission", "Ior"}
+LAMP_FIELDS = {"UniqueID", "Name", "Corner", "EdgeU", "EdgeV", "Radiance"}
 
 
 def parse(text):
@@ -55,14 +61,24 @@ def turned(quaternion, vector):
     return vector + real * across + numpy.cross(axis, across)
 
 
+def need(names, known, what):
+    """names: of what is there."""
+    for name in names:
+        if name not in known:
+            raise ValueError(f"{name}, {what} that other renderers are not given")
+
+
 def materialOf(block):
+    need((words[0] for words, _ in block), FIELDS, "a field of a material")
     color = field(block, "BaseColor", (1, 1, 1))
     roughness = field(block, "Roughness", (1,))[0]
-    if field(block, "Transmission", (0,))[0] == 1 and roughness == 0:
-        return {"kind": "glass", "color": color, "ior": field(block, "Ior", (1.5,))[0]}
-    if field(block, "Metallic", (0,))[0] == 1:
+    clear, metallic = (field(block, it, (0,))[0] for it in ("Transmission", "Metallic"))
+    ior = field(block, "Ior", (1.5,))[0]
+    if (clear, metallic, roughness) == (1, 0, 0) and (color == 1).all():
+        return {"kind": "glass", "color": color, "ior": ior}
+    if (clear, metallic) == (0, 1):
         return {"kind": "metal", "color": color, "roughness": roughness}
-    if field(block, "Ior", (1.5,))[0] == 1:
+    if (clear, metallic, ior) == (0, 0, 1):
         return {"kind": "diffuse", "color": color}
     raise ValueError("a material that other renderers are not given")
 
@@ -78,18 +94,29 @@ class Reader:
 
     def material(self, block, inherited):
         for _, state in inner(block, "StateSet"):
-            for kind, attribute in inner(self.whole(state), "AttributeList"):
+            state = self.whole(state)
+            if inner(state, "TextureAttributeList"):
+                raise ValueError("textures, which other renderers are not given")
+            need((kind for kind, _ in inner(state, "AttributeList")), ATTRIBUTES, "an attribute")
+            for kind, attribute in inner(state, "AttributeList"):
                 if kind == "osgRayTrace::PhysicalMaterial":
                     inherited = materialOf(self.whole(attribute))
         return inherited
 
     def geometry(self, block, matrix, material):
+        material = self.material(block, material)
+        if material is None:
+            raise ValueError("a surface without a PhysicalMaterial")
         arrays = {name: inner(block, name) for name in ("VertexArray", "NormalArray")}
         points = numbers(arrays["VertexArray"][0][1], "vector").reshape(-1, 3)
         normals = None
         if arrays["NormalArray"]:
             normals = numbers(arrays["NormalArray"][0][1], "vector").reshape(-1, 3)
-            normals = normals @ matrix[:3, :3]  # of rotations alone
+            turn = matrix[:3, :3]
+            rotated = numpy.allclose(turn @ turn.T, numpy.eye(3), 0, 1e-4)
+            if len(normals) != len(points) or not rotated:
+                raise ValueError("normals of faces, or below a transform that is no rotation")
+            normals = normals @ turn
         for kind, primitive in inner(block, "PrimitiveSetList"):
             mode = [words[1] for words, _ in primitive if words[0] == "Mode"][0]
             if kind == "osg::DrawArrays":
@@ -106,6 +133,7 @@ class Reader:
             self.parts.append({**part, "triangles": index.reshape(-1, 3), "material": material})
 
     def node(self, kind, block, matrix, material):
+        need([kind], NODES | {"osgRayTrace::AreaLight"}, "a node")
         block = self.whole(block)
         material = self.material(block, material)
         if kind == "osg::MatrixTransform":
@@ -122,11 +150,13 @@ class Reader:
                 "fovy": field(block, "FieldOfView")[0],
             }
         if kind == "osgRayTrace::AreaLight":
+            need((words[0] for words, _ in block), LAMP_FIELDS, "a field of a lamp")
             corner, u, v = (field(block, it) for it in ("Corner", "EdgeU", "EdgeV"))
             turn = matrix[:3, :3]
             lamp = (corner @ turn + matrix[3, :3], u @ turn, v @ turn, field(block, "Radiance"))
             self.lamps.append(lamp)
-        for _, geometry in inner(block, "Drawables"):
+        for drawable, geometry in inner(block, "Drawables"):
+            need([drawable], {"osg::Geometry"}, "a drawable")
             self.geometry(self.whole(geometry), matrix, material)
         for child, inside in inner(block, "Children"):
             self.node(child, inside, matrix, material)
