@@ -1,9 +1,9 @@
-# blenderScene.py - a scene of ours in Blender, rendered with Cycles; for the scripts that run there.
+# blenderScene.py - a scene of ours in Blender, rendered with Cycles; for scripts that run there.
 # SPDX-License-Identifier: MIT
 """Arguments after "--": a JSON file with obj (the scene as OSG's osgconv writes it), size, threads,
 bounces, sky (the picture of an environment, if there is one), pictures, a list of [file, samples,
-seed], and what the scene's own script wants. The files are arrays of NumPy with linear RGB, the lowest row first. The result is printed, a line for
-each picture: processor seconds."""
+seed], and what the scene's own script wants. The files are arrays of NumPy with linear RGB, the
+lowest row first. The result is printed, a line for each picture: processor seconds."""
 import json
 import math
 import os
@@ -19,7 +19,8 @@ from objParts import readParts  # noqa: E402,F401
 
 
 def turnOf(view):
-    """Returns the transform of a scene of ours: its view's right, ahead and up become x, y and z."""
+    """Returns the transform of a scene of ours: its view's right, ahead and up become x, y and
+    z."""
     ahead = (view["center"] - view["eye"]).normalized()
     right = ahead.cross(view["up"]).normalized()
     return Matrix((right, ahead, right.cross(ahead)))
@@ -145,8 +146,8 @@ def render(file, samples, seed, size):
 
 
 def run(addScene):
-    """Does the task of the file named after "--"; addScene(task) adds what is to be seen, and returns
-    the view: eye, center, up, fovy [degrees]."""
+    """Does the task of the file named after "--"; addScene(task) adds what is to be seen, and
+    returns the view: eye, center, up, fovy [degrees]."""
     with open(sys.argv[sys.argv.index("--") + 1], encoding="utf-8") as text:
         task = json.load(text)
     bpy.ops.wm.read_factory_settings(use_empty=True)

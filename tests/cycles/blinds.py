@@ -1,7 +1,7 @@
 # blinds.py - how much noise sunbeams through blinds have beside those of Blender's Cycles.
 # SPDX-License-Identifier: MIT
-"""See noise.py for the table. A room of 4 x 4 x 3 m is full of haze. One of its walls is a blind, with
-a sun without a size behind it."""
+"""See noise.py for the table. A room of 4 x 4 x 3 m is full of haze. One of its walls is a blind,
+with a sun without a size behind it."""
 import math
 import os
 import sys

@@ -1,7 +1,7 @@
-# blindsInBlender.py - renders the blinds of blinds.py with Blender's Cycles; blinds.py starts it there.
+# blindsInBlender.py - renders the blinds of blinds.py with Cycles; blinds.py starts it in Blender.
 # SPDX-License-Identifier: MIT
-"""The task has view, quads (lists of four corners), albedo, sun (towards it, irradiance), fog (centre,
-radius, scattering, absorption, anisotropy) beside what blenderScene.py wants. z is up."""
+"""The task has view, quads (lists of four corners), albedo, sun (towards it, irradiance), fog
+(centre, radius, scattering, absorption, anisotropy) beside what blenderScene.py wants. z is up."""
 import os
 import sys
 

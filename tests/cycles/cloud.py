@@ -8,8 +8,8 @@ FOVY = 30.0
 
 
 def smoke():
-    """Returns densities from 0 to 1 of a cloud in the unit cube: noise whose spectrum falls with the
-    2.2nd power of the frequency, above a threshold that rises outwards."""
+    """Returns densities from 0 to 1 of a cloud in the unit cube: noise whose spectrum falls with
+    the 2.2nd power of the frequency, above a threshold that rises outwards."""
     numbers = numpy.random.default_rng(7)
     frequency = numpy.fft.fftfreq(SIDE)
     x, y, z = numpy.meshgrid(frequency, frequency, numpy.fft.rfftfreq(SIDE), indexing="ij")

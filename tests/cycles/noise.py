@@ -1,12 +1,12 @@
-# noise.py - the noise of a scene's pictures beside that of Blender's Cycles; for the scenes' scripts.
+# noise.py - the noise of a scene's pictures beside that of Blender's Cycles; for scenes' scripts.
 # SPDX-License-Identifier: MIT
-"""Both renderers get the scene, one thread and the same number of bounces. The error of a picture of
-64 samples is that from a long picture by the same renderer, as the two may differ by some percent:
-relMSE, the mean of (x - r)^2 / (r^2 + 0.01), over all pixels but the worst 0.1 %. Seconds are the
-processor's, without those to set up: 64/48 of the difference between pictures of 16 and of 64
-samples. The table goes to the standard output. The exit code is 1 if the means differ by more than
-the scene's tolerance and three standard errors, 2 if a program failed or is not there, and 77 if
-what the comparison is with is not there."""
+"""Both renderers get the scene, one thread and the same number of bounces. The error of a picture
+of 64 samples is that from a long picture by the same renderer, as the two may differ by some
+percent: relMSE, the mean of (x - r)^2 / (r^2 + 0.01), over all pixels but the worst 0.1 %. Seconds
+are the processor's, without those to set up: 64/48 of the difference between pictures of 16 and of
+64 samples. The table goes to the standard output. The exit code is 1 if the means differ by more
+than the scene's tolerance and three standard errors, 2 if a program failed or is not there, and 77
+if what the comparison is with is not there."""
 import argparse
 import json
 import os
@@ -149,10 +149,10 @@ def texts(values):
 
 
 def compare(options, scene, task, parts=None, tolerance=0.02):
-    """Prints the table for a model and its script in Blender. task: the script, what it wants beside
-    the common task, and "ours", more arguments of osgraytrace. parts: by name, functions of the size
-    that return which pixels belong to a part of the picture. Returns the exit code: 1 if the means
-    of the last part, or of the picture, differ by more than the tolerance."""
+    """Prints the table for a model and its script in Blender. task: the script, what it wants
+    beside the common task, and "ours", more arguments of osgraytrace. parts: by name, functions of
+    the size that return which pixels belong to a part of the picture. Returns the exit code: 1 if
+    the means of the last part, or of the picture, differ by more than the tolerance."""
     parts = parts or {}
     needBlender()
     masks = [part(options.size) for part in parts.values()]

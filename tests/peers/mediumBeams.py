@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """A closed room is full of gas, with a glass ball under a small lamp. Each renderer gets numbers of
 passes and one thread. relMSE is that of noise.py against our long picture, without the pixels
-around the lamp, which is smaller than one. The table has relMSE and processor seconds, less those of the
-fewest passes, and when 3e-3 is reached, by powers between the rows. What is beyond them is a guess.
-The exit code is 2 if a program failed, or if its passes are too few to be timed."""
+around the lamp, which is smaller than one. The table has relMSE and processor seconds, less those
+of the fewest passes, and when 3e-3 is reached, by powers between the rows. What is beyond them is a
+guess. The exit code is 2 if a program failed, or if its passes are too few to be timed."""
 import json
 import os
 

@@ -1,8 +1,8 @@
 # mediumTable.py - the noise of pictures of media by several renderers; for scripts of this folder.
 # SPDX-License-Identifier: MIT
-"""What is compared, and how, is told by tests/cycles/noise.py. A renderer is a function that renders
-noise.pictures(options, name), which it gets, as arrays of NumPy, and returns the processor seconds
-of each."""
+"""What is compared, and how, is told by tests/cycles/noise.py. A renderer is a function that
+renders noise.pictures(options, name), which it gets, as arrays of NumPy, and returns the processor
+seconds of each."""
 import os
 import sys
 

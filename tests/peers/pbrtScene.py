@@ -3,8 +3,6 @@
 """See sceneFile.py for what a scene is. Lamps are black parallelograms that shine to one side, as
 ours. "disney" of pbrt's with metallic 1 is GGX below Schlick's Fresnel term, as our metal is; its
 width is the square of the roughness, too."""
-import numpy
-
 import sceneFile
 
 MATERIALS = {

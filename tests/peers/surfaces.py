@@ -4,11 +4,11 @@
 """Each renderer gets the same surfaces, lamps and view, one thread, the same number of bounces and
 a box of a pixel as filter. A method's number of samples (passes, iterations) is the power of two
 that takes about --seconds. Seconds are the processor's, the system's among them, without those to
-set up: those of a picture of few samples are taken off. The error is relMSE, the mean of
-(x - r)^2 / (r^2 + e^2) over all pixels but the worst 0.1 %, from one long picture r of ours, e a
-tenth of its mean. So a mean that differs from it by more than 2 % and three standard errors is said, and the exit code
-is 1. It is 2 if a program failed or a scene has what others are not given, and 77 if Blender or
-pbrt-v3 is not there. The table goes to the standard output, pictures to --out."""
+set up: those of a picture of few samples are taken off. The error is relMSE, the mean of (x - r)^2
+/ (r^2 + e^2) over all pixels but the worst 0.1 %, from one long picture r of ours, e a tenth of its
+mean. So a mean that differs from it by more than 2 % and three standard errors is said, and the
+exit code is 1. It is 2 if a program failed or a scene has what others are not given, and 77 if
+Blender or pbrt-v3 is not there. The table goes to the standard output, pictures to --out."""
 import argparse
 import math
 import os
