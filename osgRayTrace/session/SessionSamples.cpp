@@ -94,7 +94,8 @@ void SessionState::samplePixels(std::vector<TileSamples>& tiles,
     {
         PassContext context = contextOfPass(number);
         context.key = context.pathKey = passKey(hash(filmSeed, kFurtherSeed), number);
-        context.wantsDepth = context.throughCentres = false;
+        context.wantsDepth = false;
+        context.throughCentres = filmCentred;
         tileCounts.assign(tiles.size(), TileCounts());
         workers->forEach(tiles.size(),
                          [&](std::size_t i)

@@ -137,17 +137,20 @@ void joinTurns(const LightTurn* turns, float* columns, std::size_t stride, float
                const uint32_t* children, LightNode* nodes, FloatLanes& spread)
 {
     UintLanes first, second;
-    FloatLanes counts;
+    UintLanes counts;
     for (int i = 0; i < kLanes; ++i)
     {
         first[i] = turns[i].first;
         second[i] = turns[i].second;
-        counts[i] = turns[i].counts;
+        counts[i] = maskOf(turns[i].counts != 0);
     }
     NodeLanes a, b;
     OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
-        spread[i] += counts[i] * joinLane(columns, stride, first[i], second[i], i, to, a, b);
+    {
+        const float joined = joinLane(columns, stride, first[i], second[i], i, to, a, b);
+        spread[i] += select(counts[i], joined, 0.0f);
+    }
     for (int i = 0; i < kLanes; ++i)
     {
         const std::size_t node = 2 * std::size_t(turns[i].pair);
@@ -206,6 +209,8 @@ void LightSubtree::setTurns(const std::vector<uint32_t>& children)
         repeated.counts = 0;
         turns.resize(roundedUp(static_cast<uint32_t>(turns.size())), repeated);
     }
+    OSGRAYTRACE_ASSERT(roundedUp(pairs + 1) + turns.size() <=
+                       0x10000); // numbers are words of 16 bits
 }
 
 SubtreeBounds setNodes(const LightSubtree& subtree, const LightEmitter* emitters,

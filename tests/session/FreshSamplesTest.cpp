@@ -25,11 +25,13 @@ const auto kGoOn = [] { return false; };
 struct OnePass
 {
     explicit OnePass(int threads = 1, unsigned seed = 0,
-                     IntegratorKind integrator = IntegratorKind::Path, Yard yard = Yard())
+                     IntegratorKind integrator = IntegratorKind::Path, Yard yard = Yard(),
+                     bool centred = false)
         : workers(std::make_shared<Workers>(threads)), session(workers)
     {
         session.setScene(traced(yard.at(0.0f)));
         session.setView(yardView());
+        session.setCentred(centred);
         RenderOptions options = noisyOptions(seed);
         options.integrator = integrator;
         session.setOptions(options);
@@ -189,6 +191,25 @@ TEST_CASE("fresh samples: display values are averaged and decoded as those of th
                 0.001f * brightness(film, i);
     }
     CHECK(near > 0.8 * all); // but for edges
+}
+
+TEST_CASE("fresh samples: those of an image that looks through the middles of its pixels do so",
+          "[session]")
+{
+    Yard yard;
+    yard.builder.scene->lights.resize(1); // the sun has no noise
+    OnePass pass(1, 0, IntegratorKind::Whitted, yard, true);
+    SampledImage image = OnePass::black(20.0f);
+    for (std::size_t i = 0; i < kPixels; i += 17)
+        image.count[i] = 0.0f;
+    pass.addTo(image);
+    const std::vector<float> film = pass.session.resolveRadiance();
+    for (std::size_t i = 0; i < kPixels; i += 17)
+    {
+        CAPTURE(i);
+        REQUIRE(image.count[i] == 4.0f);
+        REQUIRE(brightness(image.radiance, i) == Approx(brightness(film, i)).epsilon(1e-5));
+    }
 }
 
 TEST_CASE("fresh samples: the shadow of a box that moves has a part of the noise", "[session]")

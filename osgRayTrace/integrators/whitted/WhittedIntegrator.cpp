@@ -300,8 +300,8 @@ void showAir(WhittedTile& tile, const ShadingBlock& block, RgbaLanes& rgba)
 /// for.
 constexpr HitRule kFromCamera{true, true};
 
-/// Traces the camera rays of blocks first to first + kGroup - 1, stage by stage.
-void traceCamera(WhittedTile& tile, int left, int bottom, int first)
+/// Traces the camera rays of some lanes of blocks first to first + kGroup - 1, stage by stage.
+void traceCamera(WhittedTile& tile, int left, int bottom, int first, const LaneMask* lanes)
 {
     const PassContext& context = tile.context;
     const TracedScene& traced = *context.traced;
@@ -315,29 +315,33 @@ void traceCamera(WhittedTile& tile, int left, int bottom, int first)
         if (traced.traits().mipmaps) cameraCones(context, block.rays.ray, block.cones);
         drawFirstPoints(tile, block);
     }
-    for (ShadingBlock& block : tile.group)
-        traced.intersector().closestHits(block.rays, kAllLanes, Coherence::Coherent, kFromCamera);
-    for (ShadingBlock& block : tile.group)
-        surfacesOf(traced.surfaces(), block.rays, kAllLanes, block.surface,
+    for (int k = 0; k < kGroup; ++k)
+        traced.intersector().closestHits(tile.group[k].rays, lanes[k], Coherence::Coherent,
+                                         kFromCamera);
+    for (int k = 0; k < kGroup; ++k)
+    {
+        ShadingBlock& block = tile.group[k];
+        surfacesOf(traced.surfaces(), block.rays, lanes[k], block.surface,
                    rayStart(context.options), &tile.lastTriangle);
-    tile.result.counts.cameraRays += kGroup * kLanes;
+        tile.result.counts.cameraRays += static_cast<uint64_t>(countLanes(lanes[k]));
+    }
     const bool media = traced.traits().media;
-    for (ShadingBlock* block = tile.group; media && block != tile.group + kGroup; ++block)
-        addAir(tile, *block, kAllLanes);
+    for (int k = 0; media && k < kGroup; ++k)
+        addAir(tile, tile.group[k], lanes[k]);
     const bool ground = traced.traits().ground;
-    for (ShadingBlock* block = tile.group; ground && block != tile.group + kGroup; ++block)
-        passGround(tile, *block, kAllLanes);
+    for (int k = 0; ground && k < kGroup; ++k)
+        passGround(tile, tile.group[k], lanes[k]);
     shade(tile, tile.group, kGroup);
     for (int k = 0; k < kGroup; ++k)
     {
         ShadingBlock& block = tile.group[k];
-        countRays(tile, block, kAllLanes);
+        countRays(tile, block, lanes[k]);
         if (block.passed) weigh(block.weight, block.radiance);
         recordFirstHits(context, left, bottom, first + k, block.rays, block.surface,
                         tile.result.firstHits);
         RgbaLanes& rgba = tile.result.rgba[first + k];
         setPixels(block.radiance, block.surface.hits, rgba);
-        for (const int i : lanesIn(seen ? kAllLanes & ~block.surface.hits : 0))
+        for (const int i : lanesIn(seen ? lanes[k] & ~block.surface.hits : 0))
         {
             const Vec3 behind = radianceBehind(context, block.rays.ray, i);
             tile.add(block.pixel[i], media || ground ? behind * laneOf(block.weight, i) : behind);
@@ -353,12 +357,13 @@ void WhittedIntegrator::renderTile(const PassContext& context, int left, int bot
                                    TileResult& result) const
 {
     WhittedTile tile(context, result);
-    const LaneMask* wanted = result.wanted;
+    constexpr LaneMask kAll[kGroup] = {kAllLanes, kAllLanes, kAllLanes, kAllLanes};
     for (int first = 0; first < kTileBlocks; first += kGroup)
     {
-        const auto isWanted = [](LaneMask lanes) { return lanes != 0; };
-        if (wanted && std::none_of(wanted + first, wanted + first + kGroup, isWanted)) continue;
-        traceCamera(tile, left, bottom, first);
+        const LaneMask* const lanes = result.wanted ? result.wanted + first : kAll;
+        const auto isWanted = [](LaneMask block) { return block != 0; };
+        if (std::none_of(lanes, lanes + kGroup, isWanted)) continue;
+        traceCamera(tile, left, bottom, first, lanes);
         while (!tile.stack.empty())
             traceSecondary(tile);
     }

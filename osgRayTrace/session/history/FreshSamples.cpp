@@ -93,19 +93,22 @@ int levelOf(const std::vector<CountTable>& tables, int enough, double affordable
 
 /// Returns the tiles of which pixels have less than level, with what these want.
 std::vector<TileSamples> findWanting(const std::vector<CountTable>& tables,
-                                     const SampledImage& image, int level)
+                                     const SampledImage& image, int level, const Workers& workers)
 {
-    std::vector<TileSamples> tiles;
+    std::vector<int> wanting;
     for (std::size_t tile = 0; tile < tables.size(); ++tile)
+        if (std::any_of(tables[tile].begin(), tables[tile].begin() + level,
+                        [](std::size_t n) { return n > 0; }))
+            wanting.push_back(static_cast<int>(tile));
+    std::vector<TileSamples> tiles(wanting.size());
+    const auto fill = [&](std::size_t k)
     {
-        const auto end = tables[tile].begin() + level;
-        if (std::find_if(tables[tile].begin(), end, [](std::size_t n) { return n > 0; }) == end)
-            continue;
-        tiles.emplace_back().tile = static_cast<int>(tile);
+        tiles[k].tile = wanting[k];
         const auto want = [&](std::size_t pixel, int own)
-        { tiles.back().wanted[own] = static_cast<uint8_t>(wantedOf(image.count[pixel], level)); };
-        forEachTilePixel(image, static_cast<int>(tile), want);
-    }
+        { tiles[k].wanted[own] = static_cast<uint8_t>(wantedOf(image.count[pixel], level)); };
+        forEachTilePixel(image, wanting[k], want);
+    };
+    workers.forEach(tiles.size(), fill);
     return tiles;
 }
 
@@ -135,11 +138,12 @@ void addTo(SampledImage& image, const TileSamples& samples)
 void addFreshSamples(RenderSession& session, float most, const std::function<bool()>& shouldStop,
                      const Workers& workers, SampledImage& image)
 {
+    if (shouldStop()) return;
     const int enough = static_cast<int>(std::min(most, static_cast<float>(kFreshEnough)));
     const std::vector<CountTable> tables = countPixels(session, image, workers);
     const double affordable = kFreshShare * static_cast<double>(image.count.size());
     std::vector<TileSamples> tiles =
-        findWanting(tables, image, levelOf(tables, enough, affordable));
+        findWanting(tables, image, levelOf(tables, enough, affordable), workers);
     session.samplePixels(tiles, shouldStop);
     workers.forEach(tiles.size(), [&](std::size_t i) { addTo(image, tiles[i]); });
 }

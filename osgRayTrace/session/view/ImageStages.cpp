@@ -128,13 +128,6 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
     session.setContinuesView(false);
     const bool begun = result.restarted && result.status.ok(); // else the image is the last one
     if (kept && !begun) forgetKept();
-    if (kept && begun)
-    {
-        _history.followMoved(session, *_workers);
-        const double begin = _now();
-        _history.refresh(session, shouldStop, *_workers);
-        _freshSeconds = _now() - begin;
-    }
     if (result.restarted) _denoiser.forgetSurfaces();
     if (result.restarted && result.status.code != StatusCode::InvalidView)
     {
@@ -142,6 +135,14 @@ void ImageStages::enterView(RenderSession& session, const ImageInputs& next,
         _imageView = next.view;
         _imageOptions = next.options;
         if (_history.leaving() || kept) ++_sequence;
+    }
+    if (kept && begun) _history.followMoved(session, *_workers);
+    // A pass that was given up for its time has none for more samples.
+    if (kept && begun && (result.passes > 0 || _history.isWhole(session)))
+    {
+        const double begin = _now();
+        _history.refresh(session, shouldStop, *_workers);
+        _freshSeconds = _now() - begin;
     }
     if (_history.leaving() && result.passes > 0 && _imageView == next.view)
         _history.enter(session, next.view, _viewDependence, *_workers);
