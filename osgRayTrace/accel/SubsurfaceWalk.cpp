@@ -16,10 +16,16 @@
 // Rays of flights end at their collision, as most surfaces are far away in mean ways. The rays of
 // the first flight and of every collision whose number is a power of two go on to infinity: one
 // that meets nothing has left the mesh through a hole.
+//
+// Where metal, or what is clear, covers a share of the surface, no light enters by that share, and
+// light that comes to it from below goes back by the cosine law, as it does below the layers of a
+// diffuse boundary (Kelemen's normalization, LayeredBsdf.h). Walks are reciprocal so, and keep
+// their energy.
 #include "osgRayTrace/accel/SubsurfaceWalk.h"
 
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/SingleSurface.h"
+#include "osgRayTrace/accel/SurfaceAttributes.h"
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/sampling/Hash.h"
@@ -58,6 +64,7 @@ enum class FlightEnd : uint8_t
 {
     Collision,
     Boundary,
+    Inwards, ///< a boundary, from which it goes back
     Nothing, ///< there is no surface on the whole ray
 };
 
@@ -71,21 +78,14 @@ public:
         for (int c = 0; c < 3; ++c)
             _albedo[c] = static_cast<float>(albedoOfColor(double(entry.color[c]), 0.0));
         walk.throughput = entry.throughput;
-        Vec3 tangent, bitangent;
-        const Vec3 inwards = -entry.normal;
-        frameOf(inwards.x, inwards.y, inwards.z, tangent, bitangent);
-        const Vec3 local = squareToCosineHemisphere(entry.direction.x, entry.direction.y);
-        walk.direction = tangent * local.x + bitangent * local.y + inwards * local.z;
-        walk.position = entry.position;
-        // The point is exact on its triangle, and the ray leaves that behind.
-        _begin = entry.offset / std::max(local.z, 1e-3f);
+        goInwards(entry.position, -entry.normal, entry.offset, entry.direction);
     }
 
     SubsurfaceWalk::End run()
     {
-        while (_walk.collisions <= kMostSubsurfaceCollisions)
+        for (; _step <= kMostSubsurfaceCollisions; ++_step)
         {
-            Vec2 u = numbersOf(_entry.key, _walk.collisions, 0);
+            Vec2 u = numbersOf(_entry.key, _step, 0);
             const Vec3 pmf = channelPmf(_walk.throughput);
             const int channel = chooseChannel(pmf, u.x);
             const float distance = -std::log1p(-u.x) / _entry.sigma[channel];
@@ -97,13 +97,16 @@ public:
                 _walk.throughput *= flightWeight(_entry.sigma, pmf, Vec3(1.0f), _walk.hit.t);
                 _walk.position += _walk.direction * _walk.hit.t;
                 return SubsurfaceWalk::End::Left;
+            case FlightEnd::Inwards:
+                _walk.throughput *= flightWeight(_entry.sigma, pmf, Vec3(1.0f), _walk.hit.t);
+                continue;
             case FlightEnd::Collision:
                 break;
             }
             _walk.throughput *=
                 _entry.sigma * _albedo * flightWeight(_entry.sigma, pmf, _entry.sigma, distance);
             if (!survives(u.y)) return SubsurfaceWalk::End::Absorbed;
-            const Vec2 turn = numbersOf(_entry.key, _walk.collisions, 1);
+            const Vec2 turn = numbersOf(_entry.key, _step, 1);
             _walk.position += _walk.direction * distance;
             _walk.direction = samplePhase(0.0f, _walk.direction, turn.x, turn.y);
             _begin = 0.0f;
@@ -113,6 +116,38 @@ public:
     }
 
 private:
+    /// Lets light go into the body from a triangle. inwards: its normal, on that side.
+    void goInwards(Vec3 point, Vec3 inwards, float offset, Vec2 u)
+    {
+        Vec3 tangent, bitangent;
+        frameOf(inwards.x, inwards.y, inwards.z, tangent, bitangent);
+        const Vec3 local = squareToCosineHemisphere(u.x, u.y);
+        _walk.direction = tangent * local.x + bitangent * local.y + inwards * local.z;
+        _walk.position = point;
+        // The point is exact on its triangle, and the ray leaves that behind.
+        _begin = offset / std::max(local.z, 1e-3f);
+    }
+
+    /// Decides whether the walk leaves at a boundary; otherwise it goes back from there.
+    FlightEnd atBoundary(const SingleSurface& met)
+    {
+        const SurfaceLanes& surface = met.surface;
+        const uint32_t material = surface.material[0];
+        const MaterialTable& materials = _traced.materials();
+        if (!materials[material].baseShareVaries) return FlightEnd::Boundary;
+        const Hit& hit = _walk.hit;
+        const MaterialPoint point =
+            materialPointOf(_traced.surfaces()[surface.instance[0]], materials[material],
+                            hit.primitive, hit.u, hit.v, true, -_walk.direction);
+        const Vec2 u = numbersOf(_entry.key, _step, 2);
+        if (u.x < materials.leavingShare(material, point)) return FlightEnd::Boundary;
+        const Vec3 normal = laneOf(surface.geometricNormal, 0);
+        const bool isOutwards = glm::dot(normal, _walk.direction) > 0.0f;
+        goInwards(laneOf(trianglePoints(surface), 0), isOutwards ? -normal : normal,
+                  surface.offset[0], numbersOf(_entry.key, _step, 3));
+        return FlightEnd::Inwards;
+    }
+
     /// Plays roulette.
     bool survives(float u)
     {
@@ -152,7 +187,7 @@ private:
             else
             {
                 _walk.hit = *hit;
-                return FlightEnd::Boundary;
+                return atBoundary(met);
             }
         }
         return FlightEnd::Collision;
@@ -164,6 +199,7 @@ private:
     Vec3 _albedo{0.0f};
     float _begin = 0.0f; ///< where on its way the next ray begins
     uint32_t _entered = 0;
+    uint32_t _step = 0; ///< collisions and turns at boundaries
 };
 
 } // namespace

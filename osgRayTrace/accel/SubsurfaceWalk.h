@@ -9,7 +9,8 @@
 namespace osgRayTrace::engine
 {
 
-/// The number of collisions after which a walk below a surface ends. What it still carried is lost.
+/// The number of collisions, and of turns below metal, after which a walk below a surface ends.
+/// What it still carried is lost.
 constexpr uint32_t kMostSubsurfaceCollisions = 10000;
 
 /// Returns 1 for the channels in which light can walk below a surface, 0 for those in which its
@@ -37,7 +38,7 @@ struct SubsurfaceWalk
         Left,     ///< it has come to the inner side of a diffuse boundary
         Absorbed, ///< roulette has ended it
         Open,     ///< it has left the mesh through a hole
-        Cut,      ///< it has had kMostSubsurfaceCollisions collisions
+        Cut,      ///< it has had kMostSubsurfaceCollisions
     };
     End end = End::Absorbed;
     Vec3 throughput{0.0f};    ///< at the end

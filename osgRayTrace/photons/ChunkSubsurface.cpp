@@ -17,6 +17,9 @@
 //
 //   share / s (albedo(base colour) / albedo(c))^n  <= 1
 //
+// The share is that of MaterialDetail::subsurface. What metal leaves to the base, Bsdf::baseShare,
+// counts where the photon enters, and walks go back below metal: SubsurfaceWalk.cpp.
+//
 // The radius is that of the place where the photon enters. That is another one than for paths if a
 // texture of the radius varies, and moves some of the light that leaves such bodies.
 //
@@ -84,15 +87,13 @@ SubsurfaceSplit largestSplit(const MaterialRecord& record, const Bsdf& whole, co
 }
 
 /// Returns the factor of a walk with the largest share and colour of a material, for one that
-/// leaves at a surface of that material. entered: the surface where it has begun.
-Vec3 factorOfPlace(const MaterialRecord& record, const Bsdf& place, const Bsdf& entered,
-                   uint32_t collisions)
+/// leaves at a surface of that material.
+Vec3 factorOfPlace(const MaterialRecord& record, const Bsdf& place, uint32_t collisions)
 {
-    if (!(place.baseShare > 0.0f)) return Vec3(0.0f);
+    if (!(luminance(place.diffuse) > 0.0f)) return Vec3(0.0f); // paths do not walk there
     const Vec3 ratio = albedoOf(glm::clamp(place.diffuse / place.baseShare, 0.0f, 1.0f)) /
                        glm::max(albedoOf(record.largestBodyColor), 1e-30f);
-    const float share = place.subsurface * place.baseShare /
-                        std::max(record.largestSubsurface * entered.baseShare, 1e-30f);
+    const float share = place.subsurface / std::max(record.largestSubsurface, 1e-30f);
     return glm::pow(glm::min(ratio, 1.0f), Vec3(static_cast<float>(collisions))) * share;
 }
 
@@ -168,11 +169,10 @@ bool ChunkTracer::walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& s
         _textured[i].diffuse = split.color * whole.baseAverage;
         _bsdfs[i] = &_textured[i];
         _aligned |= 1u << i;
-        setLane(
-            block.power, i,
-            entering *
-                (record.subsurfaceVaries ? factorOfPlace(record, whole, whole, 0) : Vec3(1.0f)) /
-                shadingFactor(direction, normal, geometric));
+        setLane(block.power, i,
+                entering *
+                    (record.subsurfaceVaries ? factorOfPlace(record, whole, 0) : Vec3(1.0f)) /
+                    shadingFactor(direction, normal, geometric));
         return false;
     default:
         _general &= ~(1u << i);
@@ -213,7 +213,7 @@ void ChunkTracer::leaveBodies(PhotonPathBlock& block, const BodyWalks& walks, La
             setLane(block.power, i,
                     laneOf(block.power, i) *
                         factorOfPlace(begun, &begun == &record ? place : walks.surfaces[i],
-                                      walks.surfaces[i], walks.collisions[i]));
+                                      walks.collisions[i]));
         _textured[i] = leavingBody(place);
         if (_textured[i].needsAxes()) alignLayers(traced, _rays, surface, i, normal, _textured[i]);
         _textured[i].diffuse = Vec3(_textured[i].baseAverage);

@@ -30,14 +30,17 @@ LaneMask nodesAround(const BoxTree::Node& node, PlainVec3 centre, float radius)
 
 } // namespace
 
-CutBall cutBall(float depth)
+CutBall cutBall(float depth, float beyond)
 {
-    const float c = std::min(std::max(depth, 0.0f), 1.0f), c2 = c * c;
-    const float m0 = kPi * (2.0f / 3.0f + c - c * c2 / 3.0f);
-    const float m1 = kPi * 0.25f * (1.0f - c2) * (1.0f - c2);
-    const float m2 = kPi * (2.0f / 15.0f + c * c2 / 3.0f - c * c2 * c2 / 5.0f);
-    const float scale = 1.0f / (m0 * m2 - m1 * m1);
-    return {m2 * scale, -m1 * scale};
+    // The integrals of u^k pi (1 - u^2) from -a to b.
+    const double a = std::min(std::max(double(depth), 0.0), 1.0), a2 = a * a;
+    const double b = std::min(std::max(double(beyond), 1e-6), 1.0), b2 = b * b;
+    const double pi = double(kPi);
+    const double m0 = pi * (b - b * b2 / 3.0 + a - a * a2 / 3.0);
+    const double m1 = pi * 0.25 * ((2.0 - b2) * b2 - (2.0 - a2) * a2);
+    const double m2 = pi * (b * b2 / 3.0 - b * b2 * b2 / 5.0 + a * a2 / 3.0 - a * a2 * a2 / 5.0);
+    const double scale = 1.0 / (m0 * m2 - m1 * m1);
+    return {static_cast<float>(m2 * scale), static_cast<float>(-m1 * scale)};
 }
 
 PointMap::PointMap(const std::vector<PhotonPoint>& points)
@@ -58,7 +61,8 @@ template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const S
 {
     const float radius2 = query.radius * query.radius;
     const bool isCut = query.depth < query.radius;
-    const CutBall kernel = isCut ? cutBall(query.depth / query.radius) : CutBall{1.0f, 0.0f};
+    const CutBall kernel = isCut ? cutBall(query.depth / query.radius, query.beyond / query.radius)
+                                 : CutBall{1.0f, 0.0f};
     const Vec3 rise = query.inwards * (kernel.slope / query.radius);
     Vec3 sum(0.0f);
     _tree.visit([&](const BoxTree::Node& node)
@@ -70,7 +74,8 @@ template <class Scattered> Vec3 PointMap::sumOf(const PointQuery& query, const S
                         const PhotonPoint& point = _points[k];
                         const Vec3 off = point.position - query.position;
                         if (!(glm::dot(off, off) < radius2)) continue;
-                        if (!(glm::dot(off, query.inwards) > -query.depth)) continue;
+                        const float along = glm::dot(off, query.inwards);
+                        if (!(along > -query.depth && along < query.beyond)) continue;
                         if (point.medium != query.medium || point.edges > query.mostEdges) continue;
                         sum += point.power * (of(glm::dot(point.direction, query.towards)) *
                                               (kernel.constant + glm::dot(off, rise)));

@@ -11,7 +11,8 @@
 // by up to half, and deeper ones brighter. Near a boundary at the depth d the kernel is therefore
 // (A + B u) / r^3, u the distance from the sphere's middle away from the boundary over r, with A
 // and B such that the kernel's integral over what is left of the ball is 1 and its first moment 0
-// [Jones93, sect. 3]: with m_k the integrals of u^k over the part of the unit ball with u > -d/r,
+// [Jones93, sect. 3]: with m_k the integrals of u^k over the part of the unit ball with u > -d/r
+// and, in thin slabs, u less than the distance to the face on the other side over r,
 //
 //   A = m2 / (m0 m2 - m1^2)    B = -m1 / (m0 m2 - m1^2)
 //
@@ -46,22 +47,24 @@ struct PointQuery
     Vec3 position{0.0f};
     Vec3 towards{0.0f}; ///< unit, in which the light goes on
     float radius = 0.0f;
-    Vec3 inwards{0.0f};      ///< unit normal of the medium's nearest boundary, to the position
-    float depth = kInfinity; ///< distance to the plane of that
-    Phase phase;             ///< of the medium
+    Vec3 inwards{0.0f};       ///< unit normal of the medium's nearest boundary, to the position
+    float depth = kInfinity;  ///< distance to the plane of that
+    float beyond = kInfinity; ///< distance to a plane on the other side, which is about parallel
+    Phase phase;              ///< of the medium
     MediumId medium = kOutside;
     uint32_t mostEdges = 0; ///< photons of longer paths are left out
 };
 
-/// Holds a kernel over a ball that a plane cuts: constant + slope u at the distance u from the
-/// middle, away from the plane, in units of the radius. The integral over the unit ball is 1.
+/// Holds a kernel over a ball that one or two planes cut: constant + slope u at the distance u from
+/// the middle, away from the plane, in units of the radius. The integral over the unit ball is 1.
 struct CutBall
 {
     float constant, slope;
 };
 
-/// Returns the kernel of a ball whose middle is so far from the plane, in units of the radius.
-CutBall cutBall(float depth);
+/// Returns the kernel of a ball whose middle is so far from the plane, and so far from the one on
+/// the other side, which is not nearer, in units of the radius. Only one of both may be 0.
+CutBall cutBall(float depth, float beyond);
 
 /// Immutable once built; thread safe.
 class PointMap

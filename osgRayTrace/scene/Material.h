@@ -326,7 +326,8 @@ inline bool hasSubsurface(const Material& m)
 {
     if (m.model != MaterialModel::Physical || !m.detail || m.detail->thinWalled) return false;
     return m.detail->subsurface > 0.0f && m.detail->subsurfaceRadius != Vec3(0.0f) &&
-           m.metallic < 1.0f && (m.transmission < 1.0f || m.transmissionTexture != kInvalid) &&
+           (m.metallic < 1.0f || m.metallicRoughnessTexture != kInvalid) &&
+           (m.transmission < 1.0f || m.transmissionTexture != kInvalid) &&
            m.baseColor != Vec3(0.0f);
 }
 

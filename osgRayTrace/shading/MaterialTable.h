@@ -46,6 +46,8 @@ struct MaterialRecord
     Vec3 subsurfaceSigma{0.0f};     ///< extinction below the surface [1/engine unit]
     bool subsurfaceVaries = false;  ///< true: textures decide on what light below it meets
     bool radiusVaries = false;      ///< true: a texture decides on subsurfaceSigma
+    bool baseShareVaries = false;   ///< true: a texture decides on Bsdf::baseShare
+    float largestBaseShare = 1.0f;  ///< of all points
     float largestSubsurface = 0.0f; ///< of all points
     Vec3 largestBodyColor{0.0f};    ///< of all points: base colours
     Vec3 absorption{0.0f}; ///< coefficients of that [1/engine unit] [glTF20, KHR_materials_volume]
@@ -96,6 +98,11 @@ public:
     /// Returns the extinction below a point of a surface with subsurface [1/engine unit].
     Vec3 subsurfaceSigma(uint32_t material, const MaterialPoint& point) const;
 
+    /// Returns the share of the light that comes to a point of a diffuse boundary from below and
+    /// leaves there, in [0, 1]: Bsdf::baseShare over the largest of the material. Metal, and what
+    /// is clear or diffuses light through, keeps the rest below.
+    float leavingShare(uint32_t material, const MaterialPoint& point) const;
+
     /// Returns the share of the light that passes a point of a pane straight, for a direction with
     /// this cosine to the shading normal. Panes are thin walls with smooth faces.
     Vec3 pane(uint32_t material, const MaterialPoint& point, float cosTheta) const;
@@ -125,6 +132,7 @@ private:
     void addAnisotropy(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void addDiffuseTransmission(const Material& material, const MaterialPoint& point,
                                 Bsdf& bsdf) const;
+    float baseShare(const Material& material, const MaterialPoint& point) const;
     void addSubsurface(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;
     void setSubsurface(const Material& material, MaterialRecord& record) const;
     void addFilm(const Material& material, const MaterialPoint& point, Bsdf& bsdf) const;

@@ -24,6 +24,12 @@ Vec3 extinctionOf(Vec3 radius, double unit)
     return sigma;
 }
 
+/// Returns what is left of 1 by a factor in [0, 1].
+float without(float factor)
+{
+    return 1.0f - std::clamp(factor, 0.0f, 1.0f);
+}
+
 bool isTextured(const Material& m, TextureRole role, float factor)
 {
     return factor > 0.0f && textureOf(m, role) != kInvalid;
@@ -39,11 +45,20 @@ void MaterialTable::setSubsurface(const Material& m, MaterialRecord& record) con
     record.largestSubsurface = std::clamp(d.subsurface, 0.0f, 1.0f);
     record.largestBodyColor = glm::clamp(m.baseColor, 0.0f, 1.0f);
     record.radiusVaries = textureOf(m, kSubsurfaceRadiusRole) != kInvalid;
-    record.subsurfaceVaries =
-        record.radiusVaries || d.vertexColors || isTextured(m, kBaseColorRole, 1.0f) ||
-        isTextured(m, kSubsurfaceRole, 1.0f) || isTextured(m, kMetallicRoughnessRole, m.metallic) ||
-        isTextured(m, kTransmissionRole, m.transmission) ||
-        isTextured(m, kDiffuseTransmissionRole, d.diffuseTransmission);
+    record.baseShareVaries = isTextured(m, kMetallicRoughnessRole, m.metallic) ||
+                             isTextured(m, kTransmissionRole, m.transmission) ||
+                             isTextured(m, kDiffuseTransmissionRole, d.diffuseTransmission);
+    record.subsurfaceVaries = record.radiusVaries || d.vertexColors || record.baseShareVaries ||
+                              isTextured(m, kBaseColorRole, 1.0f) ||
+                              isTextured(m, kSubsurfaceRole, 1.0f);
+    const auto least = [&](TextureRole role, int channel)
+    {
+        const uint32_t texture = textureOf(m, role);
+        return texture != kInvalid ? leastTexel(*_scene->textures[texture], channel) : 1.0f;
+    };
+    record.largestBaseShare = without(m.metallic * least(kMetallicRoughnessRole, 2)) *
+                              without(m.transmission * least(kTransmissionRole, 0)) *
+                              without(d.diffuseTransmission * least(kDiffuseTransmissionRole, 3));
     if (const uint32_t texture = textureOf(m, kSubsurfaceRole); texture != kInvalid)
         record.largestSubsurface =
             std::clamp(d.subsurface * largestTexel(*_scene->textures[texture]).x, 0.0f, 1.0f);
@@ -61,19 +76,25 @@ Vec3 MaterialTable::subsurfaceSigma(uint32_t material, const MaterialPoint& poin
     return extinctionOf(m.detail->subsurfaceRadius * factor, _scene->unit);
 }
 
+/// Returns what metal, clear parts and diffuse transmission leave to the base.
+float MaterialTable::baseShare(const Material& m, const MaterialPoint& point) const
+{
+    return without(m.metallic * textureOr(m, kMetallicRoughnessRole, point).z) *
+           without(m.transmission * textureOr(m, kTransmissionRole, point).x) *
+           without(m.detail->diffuseTransmission * textureOr(m, kDiffuseTransmissionRole, point).w);
+}
+
+float MaterialTable::leavingShare(uint32_t material, const MaterialPoint& point) const
+{
+    const MaterialRecord& record = _records[material];
+    if (!record.baseShareVaries) return 1.0f;
+    return baseShare(*record.material, point) / std::max(record.largestBaseShare, 1e-30f);
+}
+
 /// Lets light enter the body. The base stays whole for those who do not follow such light.
 void MaterialTable::addSubsurface(const Material& m, const MaterialPoint& point, Bsdf& bsdf) const
 {
-    const float metallic =
-        std::clamp(m.metallic * textureOr(m, kMetallicRoughnessRole, point).z, 0.0f, 1.0f);
-    const float transmission =
-        std::clamp(m.transmission * textureOr(m, kTransmissionRole, point).x, 0.0f, 1.0f);
-    const float through = m.detail->diffuseTransmission > 0.0f
-                              ? glm::clamp(m.detail->diffuseTransmission *
-                                               textureOr(m, kDiffuseTransmissionRole, point).w,
-                                           0.0f, 1.0f)
-                              : 0.0f;
-    bsdf.baseShare = (1.0f - metallic) * (1.0f - transmission) * (1.0f - through);
+    bsdf.baseShare = baseShare(m, point);
     if (!(bsdf.baseShare > 0.0f)) return;
     bsdf.subsurface =
         std::clamp(m.detail->subsurface * textureOr(m, kSubsurfaceRole, point).x, 0.0f, 1.0f);

@@ -179,6 +179,21 @@ Vec3 largestTexel(const Texture& texture)
     return largest;
 }
 
+float leastTexel(const Texture& texture, int channel)
+{
+    float least = kInfinity;
+    if (hasBorder(texture.wrapS) || hasBorder(texture.wrapT)) least = borderOf(texture)[channel];
+    for (auto i = std::size_t(channel); i < texture.floats.size(); i += 4)
+        least = std::fmin(least, texture.floats[i]);
+    uint8_t byte = 255;
+    for (auto i = std::size_t(channel); i < texture.bytes.size() && byte > 0; i += 4)
+        byte = std::min(byte, texture.bytes[i]);
+    if (!texture.bytes.empty())
+        least = std::fmin(least, texture.decodeSrgb && channel < 3 ? decodedBytes()[byte]
+                                                                   : float(byte) * (1.0f / 255.0f));
+    return least < kInfinity ? std::fmax(least, 0.0f) : 0.0f;
+}
+
 Vec4 sampleTexture(const Texture& texture, Vec2 uv)
 {
     return sampleSlice(texture, uv, 0);

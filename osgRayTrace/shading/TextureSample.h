@@ -47,6 +47,9 @@ Vec4 sampleTexture(const Texture& texture, Vec4 coordinates, float width);
 /// texels, as far as none is the largest possible.
 Vec3 largestTexel(const Texture& texture);
 
+/// Returns a value, not below 0, that no look-up of a channel is below, 0: red to 3: alpha.
+float leastTexel(const Texture& texture, int channel);
+
 /// Returns the linear value of each sRGB byte [IEC61966].
 const std::array<float, 256>& decodedBytes();
 

@@ -101,17 +101,25 @@ void MediumWalk::addPhotonBeams(int step)
     addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
 }
 
-/// Sets the boundary of the medium that is next to a collision: the surface that the ray has come
-/// from, or the one that it would meet.
+/// Sets the boundary of the medium that is next to a collision, the surface that the ray has come
+/// from or the one that it would meet, and the other one if the medium is a slab between both.
 void MediumWalk::findBoundary(int i, float distance, PointQuery& query)
 {
+    constexpr float kParallel = 0.9f; // cosine of the angle between the faces of a slab
     const Vec3 direction = -query.towards;
     const auto keep = [&](Vec3 normal, float away, float side)
     {
         const float cosine = glm::dot(normal, direction), depth = std::fabs(cosine) * away;
-        if (!(depth < query.depth)) return;
-        query.depth = depth;
-        query.inwards = cosine * side < 0.0f ? -normal : normal;
+        const Vec3 inwards = cosine * side < 0.0f ? -normal : normal;
+        const bool isSlab = glm::dot(inwards, query.inwards) < -kParallel;
+        if (depth < query.depth)
+        {
+            query.beyond = isSlab ? query.depth : kInfinity;
+            query.depth = depth;
+            query.inwards = inwards;
+        }
+        else if (isSlab)
+            query.beyond = depth;
     };
     if (hasHit(i))
         keep(laneOf(_surface.geometricNormal, i), _block.rays.ray.tFar[i] - distance, -1.0f);
