@@ -36,8 +36,8 @@ SCENES = {
     "hall": (lampScenes.hall, ["path"], "path", None),
     "rooms": (lampScenes.rooms, ["path"], "path", None),
     "pool": ("pool.osgt", ["photon-caustics", "sppm"], "photon-caustics", 0.4),
-    "plates": ("veach_plates.osgt", ["path"], "path", None),
-    "necklace": ("necklace.osgt", ["path", "photon-caustics"], "path", None),
+    "plates": ("veach_plates.osgt", ["path", "sppm"], "path", None),
+    "necklace": ("necklace.osgt", ["path", "sppm", "photon-caustics"], "path", None),
     "cornell": ("cornell_box.osgt", ["path", "sppm"], "path", None),
 }
 
