@@ -294,6 +294,16 @@ ViewInputs inputsOf(const std::shared_ptr<const Scene>& scene,
     return inputs;
 }
 
+/// Returns the Cornell box in fog that scatters 63 % of the light on the way across.
+std::shared_ptr<const Scene> inFog(const Scene& box)
+{
+    auto scene = std::make_shared<Scene>(box);
+    Atmosphere air;
+    air.medium.sigmaS = Vec3(1.0f / 550.0f);
+    scene->atmosphere = std::make_shared<const Atmosphere>(air);
+    return scene;
+}
+
 /// Returns ten thousand transforms that share one geometry, seen from above at a slant.
 ViewInputs fieldInputs(const std::shared_ptr<Workers>& workers)
 {
@@ -339,6 +349,8 @@ void measureInteractive(const InteractiveOptions& options, Rows& rows)
     const BenchScene box = cornellBox(options.width, options.height);
     measure(
         "Cornell box", [&] { return inputsOf(box.scene, workers); }, box.view);
+    measure(
+        "Cornell box in fog", [&] { return inputsOf(inFog(*box.scene), workers); }, box.view);
     const BenchScene sphere = displacedSphere(options.width, options.height);
     measure(
         "a million triangles", [&] { return inputsOf(sphere.scene, workers); }, sphere.view);
