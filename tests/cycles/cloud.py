@@ -1,6 +1,12 @@
 # cloud.py - smoke of 256 cubed voxels in the unit cube, for scripts that compare renderers.
 # SPDX-License-Identifier: MIT
+import os
+import sys
+
 import numpy
+
+import noise
+import sky
 
 SIDE, EXTINCTION, ALBEDO, ANISOTROPY = 256, 40.0, 0.95, 0.3
 EYE = (0.5, -1.9, 0.5)  # looks along +y, with z up
@@ -25,12 +31,31 @@ def smoke():
     return numpy.clip(density, 0, 1).astype(numpy.float32)
 
 
-def write(file, pyopenvdb):
+def write(options):
+    """Writes the smoke, a sky and the scene of both into the folder of the options. Returns the
+    files of the smoke, of the scene and of the sky. Ends the script, with 77, if there is no
+    pyopenvdb."""
+    try:
+        import pyopenvdb
+    except ImportError:
+        print("skipped: there is no pyopenvdb; Debian has it in the package python3-openvdb")
+        sys.exit(77)
+    volume, scene, sky_file = (
+        os.path.join(os.path.abspath(options.out), name)
+        for name in ("smoke.vdb", "smoke.osgb", "sky.hdr")
+    )
     grid = pyopenvdb.FloatGrid()
     grid.copyFromArray(smoke())
     grid.transform = pyopenvdb.createLinearTransform(1.0 / SIDE)
     grid.gridClass, grid.name = pyopenvdb.GridClass.FOG_VOLUME, "density"
-    pyopenvdb.write(file, grids=[grid])
+    pyopenvdb.write(volume, grids=[grid])
+    sky.write(sky_file, sky.outdoors())
+    noise.run(
+        ["osgconv", "-O", f"extinction={EXTINCTION}", volume, scene],
+        scene + ".log",
+        env=noise.libraries(options.build),
+    )
+    return volume, scene, sky_file
 
 
 def view():

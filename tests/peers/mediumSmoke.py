@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT
 """See mediumTable.py for the table. Both get the same 256 cubed voxels. Needs Debian's
 python3-openvdb, too."""
-import os
 import sys
 
 import mediumTable
@@ -57,21 +56,8 @@ def world(sky_file):
 OPTIONS = noise.parseArguments(__doc__, "smoke", "pbrt")
 noise.need(OPTIONS.pbrt, "--pbrt names the program of pbrt-v3")
 noise.needBlender()
-try:
-    import pyopenvdb
-except ImportError:
-    print("skipped: there is no pyopenvdb; Debian has it in the package python3-openvdb")
-    sys.exit(77)
-FOLDER = os.path.abspath(OPTIONS.out)
-VOLUME, SCENE, SKY = (os.path.join(FOLDER, name) for name in ("smoke.vdb", "smoke.osgb", "sky.hdr"))
-cloud.write(VOLUME, pyopenvdb)
-sky.write(SKY, sky.outdoors())
+_, SCENE, SKY = cloud.write(OPTIONS)
 writeSky(SKY + ".pfm", radianceOf(SKY))
-noise.run(
-    ["osgconv", "-O", f"extinction={cloud.EXTINCTION}", VOLUME, SCENE],
-    SCENE + ".log",
-    env=noise.libraries(OPTIONS.build),
-)
 VIEW = {"eye": cloud.EYE, "center": (0.5, 0.5, 0.5), "up": (0, 0, 1), "fovy": cloud.FOVY}
 OURS = ["--integrator", "path", "--environment", SKY, *cloud.view()]
 RENDERERS = {

@@ -56,6 +56,21 @@ vector 4 {{
     return shaded(name, texts, diffuse(color))
 
 
+def triangles(points, corners):
+    """Returns the text of a geometry. corners: of each triangle three indices of points."""
+    numbers = " ".join(str(number) for corner in corners for number in corner)
+    places = "\n".join(words(point) for point in points)
+    return f"""osg::Geometry {{ {unique()}
+PrimitiveSetList 1 {{ osg::DrawElementsUInt {{ {unique()}
+Mode TRIANGLES
+vector {3 * len(corners)} {{ {numbers} }} }} }}
+VertexArray TRUE {{ osg::Vec3Array {{ {unique()}
+Binding BIND_PER_VERTEX
+vector {len(points)} {{
+{places}
+}} }} }} }}"""
+
+
 def sphere(name, center, radius, material):
     text = f"""osg::ShapeDrawable {{ {unique()}
 Shape TRUE {{ osg::Sphere {{ {unique()}

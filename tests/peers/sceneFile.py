@@ -9,6 +9,8 @@ all transforms applied. What a scene has besides raises ValueError: other render
 it."""
 import numpy
 
+import osgText
+
 NODES = {"osg::Group", "osg::MatrixTransform", "osg::Geode", "osg::ClearNode", "osg::CameraView"}
 ATTRIBUTES = {"osg::LightModel", "osg::Material", "osgRayTrace::PhysicalMaterial"}
 FIELDS = {"UniqueID", "Name", "BaseColor", "Roughness", "Metallic", "Transmission", "Ior"}
@@ -172,53 +174,16 @@ def read(file):
     return {"view": reader.view, "parts": reader.parts, "lamps": reader.lamps}
 
 
-FILE = """#Ascii Scene
-#Version 161
-#Generator OpenSceneGraph 3.6.5
-
-osg::Group {{
-  UniqueID 1
-  StateSet TRUE {{
-    osg::StateSet {{
-      UniqueID 2
-      ModeList 1 {{
-        GL_LIGHT0 OFF
-      }}
-    }}
-  }}
-  Children {count} {{
-{children}
-  }}
-}}
-"""
-PART = """osg::Geode {{ UniqueID {geode}
-StateSet TRUE {{ osg::StateSet {{ UniqueID {state} AttributeList 1 {{
-osgRayTrace::PhysicalMaterial {{ UniqueID {material} BaseColor {color} Ior 1 }} Value OFF }} }} }}
-Drawables 1 {{ osg::Geometry {{ UniqueID {geometry}
-PrimitiveSetList 1 {{ osg::DrawElementsUInt {{ UniqueID {elements} Mode TRIANGLES vector {size} {{
-{triangles} }} }} }}
-VertexArray TRUE {{ osg::Vec3Array {{ UniqueID {array} Binding BIND_PER_VERTEX vector {count} {{
-{points} }} }} }} }} }} }}"""
-LAMP = "osgRayTrace::AreaLight {{ UniqueID {} Corner {} EdgeU {} EdgeV {} Radiance {} }}"
-
-
 def text(values):
     return " ".join(f"{value:.9g}" for value in numpy.ravel(values))
 
 
 def write(file, scene):
     """Writes a scene whose materials are diffuse; the view is left out."""
-    children = []
+    nodes = []
     for index, part in enumerate(scene["parts"]):
-        names = ("geode", "state", "material", "geometry", "elements", "array")
-        numbered = {name: 10 * index + 10 + i for i, name in enumerate(names)}
-        points, triangles = part["points"], part["triangles"]
-        sizes = {"size": triangles.size, "count": len(points)}
-        arrays = {"points": text(points), "triangles": text(triangles)}
-        color = text(part["material"]["color"])
-        children.append(PART.format(**numbered, **sizes, **arrays, color=color))
-    first = 10 * len(children) + 20
-    for index, lamp in enumerate(scene["lamps"]):
-        children.append(LAMP.format(first + index, *[text(it) for it in lamp]))
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(FILE.format(count=len(children), children="\n".join(children)))
+        look = osgText.diffuse(part["material"]["color"])
+        mesh = osgText.triangles(part["points"], part["triangles"])
+        nodes.append(osgText.shaded(f"part {index}", [mesh], look))
+    nodes += [osgText.areaLight(*lamp) for lamp in scene["lamps"]]
+    osgText.write(file, nodes)

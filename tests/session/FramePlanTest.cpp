@@ -101,7 +101,7 @@ TEST_CASE("frame plan: moving views fit into their budgets and fill them", "[ses
 {
     for (const double budget : {0.016, 0.033, 0.1})
     {
-        for (const double pass : {0.002, 0.02, 0.08, 0.3, 1.5})
+        for (const double pass : {0.002, 0.02, 0.08, 0.3, 1.5, 5.0})
         {
             CAPTURE(budget, pass);
             Machine machine;

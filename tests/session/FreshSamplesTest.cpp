@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/session/history/FreshSamples.h"
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/session/view/ImageStages.h"
 
 #include "tests/Catch.h"
 #include "tests/Statistics.h"
@@ -212,16 +213,45 @@ TEST_CASE("fresh samples: those of an image that looks through the middles of it
     }
 }
 
+TEST_CASE("fresh samples: a pass that was given up for its time gets none", "[session]")
+{
+    const Yard yard;
+    for (const bool givesUp : {false, true})
+    {
+        CAPTURE(givesUp);
+        const auto workers = std::make_shared<Workers>(1);
+        RenderSession session(workers);
+        session.setView(yardView());
+        session.setOptions(noisyOptions(0));
+        ImageStages stages([] { return 0.0; });
+        stages.reset(workers);
+        stages.setMostKept(64.0f);
+        const auto show = [&](float x, bool whole)
+        {
+            const ImageInputs inputs{traced(yard.at(x)), yardView(), noisyOptions(0)};
+            session.setScene(inputs.scene);
+            stages.leaveView(session, inputs);
+            StopRule rule;
+            rule.passes = 1;
+            rule.shouldStop = [whole](int tiles, double) { return !whole && tiles > 0; };
+            const RenderProgress result = session.render(rule);
+            REQUIRE((result.passes == 1) == whole);
+            int asked = 0; // whether to stop: before each of the tiles that get samples
+            stages.enterView(session, inputs, result, [&asked] { return ++asked < 0; });
+            return asked;
+        };
+        show(0.0f, true);
+        const int asked = show(1.0f, !givesUp);
+        CHECK(stages.versionsKept() == 1);
+        CHECK((asked == 0) == givesUp);
+    }
+}
+
 TEST_CASE("fresh samples: the shadow of a box that moves has a part of the noise", "[session]")
 {
     const Yard yard;
     Watcher keeping(traced(yard.at(0.0f))), restarting(traced(yard.at(0.0f)), false);
-    for (int frame = 0; frame < 24; ++frame)
-    {
-        const auto scene = yard.at(-4.0f + 0.25f * float(frame));
-        keeping.show(scene);
-        restarting.show(scene);
-    }
+    showMovingBox(yard, keeping, restarting);
     const auto last = yard.at(2.0f);
     const std::vector<float> reference = fresh(last, 9, 256), before = fresh(yard.at(1.0f), 9, 256),
                              kept = keeping.show(last), plain = restarting.show(last);

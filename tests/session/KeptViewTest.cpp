@@ -119,12 +119,7 @@ TEST_CASE("kept view: frames in which a box moves have a small part of the error
 {
     const Yard yard;
     Watcher keeping(traced(yard.at(0.0f))), restarting(traced(yard.at(0.0f)), false);
-    for (int frame = 0; frame < 24; ++frame)
-    {
-        const auto scene = yard.at(-4.0f + 0.25f * float(frame));
-        keeping.show(scene);
-        restarting.show(scene);
-    }
+    showMovingBox(yard, keeping, restarting);
     const auto last = yard.at(2.0f);
     const std::vector<float> reference = fresh(last, 9, 256);
     const double kept = squaredError(keeping.show(last), reference),

@@ -101,6 +101,17 @@ struct Watcher
     std::vector<uint8_t> rgba;
 };
 
+/// Shows both watchers 24 frames in which the box comes nearer from the left, to x = 1.75.
+inline void showMovingBox(const Yard& yard, Watcher& a, Watcher& b)
+{
+    for (int frame = 0; frame < 24; ++frame)
+    {
+        const auto scene = yard.at(-4.0f + 0.25f * float(frame));
+        a.show(scene);
+        b.show(scene);
+    }
+}
+
 /// Returns what a session without any past makes of so many passes of a sequence.
 inline std::vector<float> fresh(const std::shared_ptr<const Scene>& scene, uint32_t sequence,
                                 int passes, const View& view = yardView())

@@ -61,7 +61,7 @@ private:
 class HeldDivider
 {
 public:
-    static constexpr int kLargest = 16;
+    static constexpr int kLargest = 32;
     static constexpr double kChosen =
         0.75; ///< share of the frame for the whole pass, when a divider is chosen
     static constexpr double kTooMuch = 0.9; ///< share above which the divider grows
