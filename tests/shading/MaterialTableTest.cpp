@@ -3,6 +3,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
+#include "osgRayTrace/shading/Bsdf.h"
 #include "osgRayTrace/shading/Fresnel.h"
 
 using namespace osgRayTrace::engine;
@@ -156,6 +157,31 @@ TEST_CASE("material: textures multiply the physical factors", "[shading]")
     CHECK(bsdf.reflectance.x == Approx(0.1 * 0.25));
     CHECK(bsdf.diffuse.y == Approx(0.9 * 0.5));
     CHECK(table.emission(0, {}) == Vec3(2.0f, 1.0f, 0.5f));
+}
+
+TEST_CASE("material: texels that are no metal make a rough dielectric of a metal", "[shading]")
+{
+    Material factor = lambert(Vec3(0.9f));
+    factor.ior = 1.5f;
+    factor.roughness = 0.6f;
+    Material texel = factor;
+    texel.metallic = 1.0f; // as glTF has it unless told otherwise
+    texel.metallicRoughnessTexture = 0;
+    Scene scene = sceneOf(texel);
+    scene.textures = {constantTexture({1.0f, 1.0f, 0.0f, 1.0f})};
+    const MaterialTable table(scene);
+    const Bsdf textured = table.bsdf(0, {}), plain = bsdfOf(factor);
+    for (const float cosO : {0.05f, 0.4f, 1.0f})
+    {
+        for (const float cosI : {0.1f, 0.7f})
+        {
+            CAPTURE(cosO, cosI);
+            const Vec3 wo(std::sqrt(1.0f - cosO * cosO), 0.0f, cosO),
+                wi(0.0f, std::sqrt(1.0f - cosI * cosI), cosI);
+            CHECK(evalBsdf(textured, wo, wi).fCos.x ==
+                  Approx(evalBsdf(plain, wo, wi).fCos.x).epsilon(1e-5));
+        }
+    }
 }
 
 TEST_CASE("material: the image of a fixed-function material", "[shading]")
