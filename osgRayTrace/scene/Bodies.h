@@ -10,7 +10,7 @@ namespace osgRayTrace::engine
 /// Returns whether the surfaces of a material enclose bodies that light can enter.
 inline bool enclosesBody(const Material& m)
 {
-    if (m.model != MaterialModel::Physical || m.metallic >= 1.0f || isInvisible(m)) return false;
+    if (m.model != MaterialModel::Physical || isMetal(m) || isInvisible(m)) return false;
     if (m.detail && m.detail->thinWalled) return false;
     return m.transmission > 0.0f || (m.detail && m.detail->diffuseTransmission > 0.0f);
 }

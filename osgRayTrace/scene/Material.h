@@ -307,6 +307,12 @@ inline bool isInvisible(const Material& m)
            m.baseColorTexture == kInvalid && m.transmissionTexture == kInvalid && !m.detail;
 }
 
+/// Returns true if all of a physical surface is metal; texels may be none, whatever the factor.
+inline bool isMetal(const Material& m)
+{
+    return m.metallic >= 1.0f && m.metallicRoughnessTexture == kInvalid;
+}
+
 /// Returns true if the surface is nothing but the boundary of a medium: light passes it unbent, and
 /// shadow rays are not blocked.
 inline bool isInterface(const Material& m)
@@ -325,8 +331,7 @@ inline bool isInterface(const Material& m)
 inline bool hasSubsurface(const Material& m)
 {
     if (m.model != MaterialModel::Physical || !m.detail || m.detail->thinWalled) return false;
-    return m.detail->subsurface > 0.0f && m.detail->subsurfaceRadius != Vec3(0.0f) &&
-           (m.metallic < 1.0f || m.metallicRoughnessTexture != kInvalid) &&
+    return m.detail->subsurface > 0.0f && m.detail->subsurfaceRadius != Vec3(0.0f) && !isMetal(m) &&
            (m.transmission < 1.0f || m.transmissionTexture != kInvalid) &&
            m.baseColor != Vec3(0.0f);
 }

@@ -61,7 +61,7 @@ void addMaterial(const Material& material, SceneTraits& traits)
     traits.specular |= reflects && material.roughness < kMirrorRoughness;
     traits.glossy |= material.metallic >= 1.0f && material.roughness < kRoughRoughness;
     traits.transmission |=
-        material.transmission > 0.0f && material.metallic < 1.0f && !isInterface(material);
+        material.transmission > 0.0f && !isMetal(material) && !isInterface(material);
 }
 
 } // namespace

@@ -187,8 +187,7 @@ MaterialTable::Coat MaterialTable::coatOf(const Material& m, float eta) const
     // A film over a body of the index of air reflects by itself.
     const float face =
         eta == 1.0f && m.detail && m.detail->iridescence > 0.0f ? m.detail->iridescenceIor : eta;
-    const bool metal = m.metallic >= 1.0f && m.metallicRoughnessTexture == kInvalid;
-    const bool base = face != 1.0f && !metal && colored &&
+    const bool base = face != 1.0f && !isMetal(m) && colored &&
                       (m.transmission < 1.0f || m.transmissionTexture != kInvalid);
     const float roughness = std::clamp(m.roughness, 0.0f, 1.0f);
     const float anisotropy = m.detail ? m.detail->anisotropy : 0.0f;

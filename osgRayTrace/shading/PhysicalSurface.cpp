@@ -27,7 +27,7 @@ void MaterialTable::setDetail(const Material& m, MaterialRecord& record) const
             detail.places[role].set >= kFirstMoreUvs)
             record.uvSets |= static_cast<uint8_t>(1u << detail.places[role].set);
     record.pane =
-        detail.thinWalled && m.transmission > 0.0f && m.metallic < 1.0f &&
+        detail.thinWalled && m.transmission > 0.0f && !isMetal(m) &&
         (m.roughness * m.roughness < kSmoothAlpha || m.metallicRoughnessTexture != kInvalid);
     record.absorbs =
         detail.absorbs() && (m.transmission > 0.0f || detail.diffuseTransmission > 0.0f);

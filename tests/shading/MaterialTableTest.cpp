@@ -3,6 +3,8 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 
+#include "osgRayTrace/scene/Bodies.h"
+#include "osgRayTrace/scene/SceneTraits.h"
 #include "osgRayTrace/shading/Bsdf.h"
 #include "osgRayTrace/shading/Fresnel.h"
 
@@ -182,6 +184,24 @@ TEST_CASE("material: texels that are no metal make a rough dielectric of a metal
                   Approx(evalBsdf(plain, wo, wi).fCos.x).epsilon(1e-5));
         }
     }
+}
+
+TEST_CASE("material: glass by texels under a metallic factor of 1 is glass", "[shading]")
+{
+    Material textured = glass(1.5f);
+    textured.metallic = 1.0f;
+    CHECK_FALSE(enclosesBody(textured));
+    CHECK_FALSE(sceneTraits(sceneOf(textured)).transmission);
+    textured.metallicRoughnessTexture = 0;
+    CHECK(enclosesBody(textured));
+    CHECK(sceneTraits(sceneOf(textured)).transmission);
+
+    MaterialDetail detail;
+    detail.thinWalled = true;
+    textured.detail = std::make_shared<MaterialDetail>(detail);
+    Scene scene = sceneOf(textured);
+    scene.textures = {constantTexture({1.0f, 1.0f, 0.0f, 1.0f})};
+    CHECK(MaterialTable(scene)[0].pane);
 }
 
 TEST_CASE("material: the image of a fixed-function material", "[shading]")
