@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/TextureSample.h"
 
+#include "osgRayTrace/base/Kernel.h"
+
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace osgRayTrace::engine
 {
@@ -156,6 +160,49 @@ Vec4 sampleVolume(const Texture& texture, Vec3 str)
     return slice(iz) * (1.0f - fz) + slice(iz + 1) * fz;
 }
 
+/// The least and the largest byte of each channel.
+struct ByteRange
+{
+    uint8_t least[4] = {255, 255, 255, 255}, largest[4] = {};
+};
+
+OSGRAYTRACE_KERNEL ByteRange rangeOf(const std::vector<uint8_t>& bytes)
+{
+    constexpr std::size_t kStripe = 64; // a whole number of texels, and of vectors
+    uint8_t least[kStripe], largest[kStripe] = {};
+    std::memset(least, 255, kStripe);
+    const uint8_t* const all = bytes.data();
+    const std::size_t whole = bytes.size() / kStripe * kStripe;
+    for (std::size_t i = 0; i < whole; i += kStripe)
+    {
+        OSGRAYTRACE_SIMD
+        for (std::size_t k = 0; k < kStripe; ++k)
+        {
+            const uint8_t byte = all[i + k];
+            least[k] = byte < least[k] ? byte : least[k];
+            largest[k] = byte > largest[k] ? byte : largest[k];
+        }
+    }
+    for (std::size_t i = whole; i < bytes.size(); ++i)
+    {
+        least[i - whole] = std::min(least[i - whole], all[i]);
+        largest[i - whole] = std::max(largest[i - whole], all[i]);
+    }
+    ByteRange range;
+    for (std::size_t k = 0; k < kStripe; ++k)
+    {
+        range.least[k % 4] = std::min(range.least[k % 4], least[k]);
+        range.largest[k % 4] = std::max(range.largest[k % 4], largest[k]);
+    }
+    return range;
+}
+
+/// Returns the value of a byte in a channel, 0: red to 3: alpha.
+float valueOf(const Texture& texture, uint8_t byte, int channel)
+{
+    return texture.decodeSrgb && channel < 3 ? decodedBytes()[byte] : float(byte) * (1.0f / 255.0f);
+}
+
 } // namespace
 
 Vec3 largestTexel(const Texture& texture)
@@ -166,16 +213,9 @@ Vec3 largestTexel(const Texture& texture)
     for (std::size_t i = 0; i + 3 < texture.floats.size(); i += 4)
         for (int c = 0; c < 3; ++c)
             largest[c] = std::fmax(largest[c], texture.floats[i + std::size_t(c)]);
-    uint8_t bytes[3] = {};
-    for (std::size_t i = 0; i + 3 < texture.bytes.size(); i += 4)
-    {
-        for (std::size_t c = 0; c < 3; ++c)
-            if (texture.bytes[i + c] > bytes[c]) bytes[c] = texture.bytes[i + c];
-        if (bytes[0] == 255 && bytes[1] == 255 && bytes[2] == 255) break;
-    }
+    const ByteRange range = rangeOf(texture.bytes);
     for (int c = 0; c < 3; ++c)
-        largest[c] = std::fmax(largest[c], texture.decodeSrgb ? decodedBytes()[bytes[c]]
-                                                              : float(bytes[c]) * (1.0f / 255.0f));
+        largest[c] = std::fmax(largest[c], valueOf(texture, range.largest[c], c));
     return largest;
 }
 
@@ -185,12 +225,8 @@ float leastTexel(const Texture& texture, int channel)
     if (hasBorder(texture.wrapS) || hasBorder(texture.wrapT)) least = borderOf(texture)[channel];
     for (auto i = std::size_t(channel); i < texture.floats.size(); i += 4)
         least = std::fmin(least, texture.floats[i]);
-    uint8_t byte = 255;
-    for (auto i = std::size_t(channel); i < texture.bytes.size() && byte > 0; i += 4)
-        byte = std::min(byte, texture.bytes[i]);
     if (!texture.bytes.empty())
-        least = std::fmin(least, texture.decodeSrgb && channel < 3 ? decodedBytes()[byte]
-                                                                   : float(byte) * (1.0f / 255.0f));
+        least = std::fmin(least, valueOf(texture, rangeOf(texture.bytes).least[channel], channel));
     return least < kInfinity ? std::fmax(least, 0.0f) : 0.0f;
 }
 

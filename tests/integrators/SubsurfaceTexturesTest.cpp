@@ -288,4 +288,22 @@ TEST_CASE("subsurface textures: no look-up is above the largest texel", "[shadin
     bytes.decodeSrgb = true;
     CHECK(leastTexel(bytes, 1) == Approx(7.0f / 255.0f / 12.92f));
     CHECK(largestTexel(bytes).y == Approx(0.21586f).epsilon(1e-4));
+
+    // Long images have a least and a largest texel, in turns, at every place.
+    for (std::size_t texel = 0; texel < 37; ++texel)
+    {
+        CAPTURE(texel);
+        Texture image;
+        image.bytes.assign(4 * 37, 100);
+        for (std::size_t c = 0; c < 3; ++c)
+            image.bytes[4 * texel + c] = static_cast<uint8_t>(texel % 2 ? 200 + c : 50 - c);
+        for (int c = 0; c < 3; ++c)
+        {
+            const float other = 100.0f / 255.0f;
+            CHECK(largestTexel(image)[c] ==
+                  (texel % 2 ? Approx(float(200 + c) / 255.0f) : Approx(other)));
+            CHECK(leastTexel(image, c) ==
+                  (texel % 2 ? Approx(other) : Approx(float(50 - c) / 255.0f)));
+        }
+    }
 }
