@@ -12,7 +12,7 @@
 // media of any optical depth.
 #pragma once
 
-#include "osgRayTrace/base/Math.h"
+#include "osgRayTrace/media/Transmittance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ inline Vec3 flightWeight(Vec3 sigma, Vec3 pmf, Vec3 scale, float t)
     for (int c = 0; c < 3; ++c)
         if (pmf[c] * scale[c] > 0.0f) least = std::min(least, sigma[c]);
     if (!(least < kInfinity)) return Vec3(0.0f);
-    const Vec3 left = glm::exp((Vec3(least) - sigma) * t);
+    const Vec3 left = expOf((Vec3(least) - sigma) * t);
     const float density = glm::dot(pmf * scale, left);
     // A channel that is never chosen may have more light left than all that are.
     return density > 0.0f ? glm::min(left / density, 1e30f) : Vec3(0.0f);
@@ -71,7 +71,9 @@ inline FreeFlight sampleFlight(Vec3 sigmaT, float length, Vec3 pmf, float u)
     const int channel = chooseChannel(pmf, u);
     FreeFlight flight;
     const float sigma = sigmaT[channel];
-    const float t = sigma > 0.0f ? -std::log1p(-u) / sigma : kInfinity;
+    // In double, log(1 - u) has the digits of log1p(-u) and takes a fraction of its time.
+    const auto depth = static_cast<float>(-std::log(1.0 - double(u)));
+    const float t = sigma > 0.0f ? depth / sigma : kInfinity;
     flight.collides = t < length;
     flight.distance = flight.collides ? t : length;
     flight.weight =
@@ -82,6 +84,8 @@ inline FreeFlight sampleFlight(Vec3 sigmaT, float length, Vec3 pmf, float u)
 /// Returns the probability that sampleFlight finds a collision.
 inline float collisionProbability(Vec3 sigmaT, float length, Vec3 pmf)
 {
+    if (sigmaT.x == sigmaT.y && sigmaT.y == sigmaT.z)
+        return -(pmf.x + pmf.y + pmf.z) * std::expm1(-sigmaT.x * length);
     float sum = 0.0f;
     for (int c = 0; c < 3; ++c)
         sum -= pmf[c] * std::expm1(-sigmaT[c] * length);

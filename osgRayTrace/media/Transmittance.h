@@ -9,10 +9,16 @@
 namespace osgRayTrace::engine
 {
 
+/// Returns exp of three channels, which are often alike.
+inline Vec3 expOf(Vec3 x)
+{
+    return x.x == x.y && x.y == x.z ? Vec3(std::exp(x.x)) : glm::exp(x);
+}
+
 /// Returns the share of light that is left after a distance: exp(-sigmaT distance).
 inline Vec3 transmittance(Vec3 sigmaT, float distance)
 {
-    return glm::exp(-sigmaT * distance);
+    return expOf(-sigmaT * distance);
 }
 
 /// Returns the radiance that a medium of this emission per length sends along a way: the integral

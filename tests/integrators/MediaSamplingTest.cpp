@@ -242,7 +242,7 @@ TEST_CASE("equiangular points have the density that is evaluated",
     const Vec3 lights[] = {Vec3(2, 1, 0), Vec3(-3, 0.2f, 0), Vec3(1.5f, 0, 0), Vec3(9, 4, 2)};
     for (const Vec3& light : lights)
     {
-        const Equiangular stretch(Vec3(0.0f), Vec3(1, 0, 0), 0.5f, 4.0f, light);
+        const Equiangular stretch({0, 0, 0}, {1, 0, 0}, 0.5f, 4.0f, plainOf(light));
         std::vector<double> counts(kCells);
         for (int i = 0; i < kSamples; ++i)
         {
@@ -256,6 +256,29 @@ TEST_CASE("equiangular points have the density that is evaluated",
             CHECK(chiSquareTest(counts, expectedCounts(density, 0.5, 4.0)) >
                   sidak(kSignificance, 3));
         CHECK(counts[0] + counts[kCells / 2] > 0.0);
+    }
+}
+
+TEST_CASE("equiangular points: stretches far from the light keep their digits",
+          "[integrators][media]")
+{
+    constexpr double kHeight = 1.0, kFar = 1000.0;
+    for (const double foot : {-kFar, 0.5, 1.0 + kFar})
+    {
+        const Equiangular stretch({0, 0, 0}, {1, 0, 0}, 0.0f, 1.0f,
+                                  {float(foot), float(kHeight), 0.0f});
+        const double angle = std::atan2(1.0 - foot, kHeight) - std::atan2(-foot, kHeight);
+        for (const float u : {0.0f, 0.25f, 0.5f, 0.999f})
+        {
+            CAPTURE(foot, u);
+            const EquiangularSample sample = stretch.sample(u);
+            const double along = double(sample.t) - foot;
+            CHECK(double(sample.pdf) ==
+                  Approx(kHeight / (angle * (kHeight * kHeight + along * along))).epsilon(1e-3));
+            const double exact =
+                foot + kHeight * std::tan(std::atan2(-foot, kHeight) + angle * double(u));
+            CHECK(double(sample.t) == Approx(exact).margin(1e-3));
+        }
     }
 }
 

@@ -169,8 +169,8 @@ MediumWalk::End MediumWalk::travel(int i)
         setLane(_block.throughput, i, throughput * transmittance(medium.sigmaT, length));
         return meet(i);
     }
-    const FreeFlight flight = sampleFlight(medium.sigmaT, length, channelPmf(throughput),
-                                           _segments.numbers[i].at(MediumFlight).x);
+    const FreeFlight flight =
+        sampleFlight(medium.sigmaT, length, channelPmf(throughput), _flights[i]);
     setLane(_block.throughput, i, throughput * flight.weight);
     return flight.collides ? collide(i, _segments.distanceAt(i, medium, flight.distance)) : meet(i);
 }
@@ -191,7 +191,7 @@ bool MediumWalk::survives(int i, Vec3 throughput)
         const float wanted =
             largestOf(throughput) * _block.etaScale[i] * (1.0f / kRouletteThroughput);
         const float survival = std::min(wanted, 1.0f);
-        if (!(_segments.numbers[i].at(MediumFlight).y < survival)) return false;
+        if (!(_survivals[i] < survival)) return false;
         throughput /= survival;
     }
     if (throughput == Vec3(0.0f)) return false;
@@ -329,6 +329,7 @@ LaneMask MediumWalk::run()
         findSegments(step);
         addLight();
         addPhotonBeams(step);
+        if (_segments.lanes) setNumbers(_segments.numbers, MediumFlight, _flights, _survivals);
         LaneMask next = 0;
         for (const int i : lanesIn(_open))
         {

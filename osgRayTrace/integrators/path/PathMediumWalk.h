@@ -100,6 +100,7 @@ private:
     uint32_t _collisions[kLanes];
     SurfaceLanes _surface;
     MediumSegments _segments;
+    FloatLanes _flights, _survivals;   ///< numbers of free flights and of Russian roulette
     std::unique_ptr<GridLanes> _grids; ///< null: the scene has no volumes
     std::optional<VolumeLight> _light; ///< nothing: no volume is lit
 };

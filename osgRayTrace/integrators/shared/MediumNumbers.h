@@ -35,21 +35,28 @@ public:
         : _seed(pathSeed),
           _pass(pass),
           _first(hash(kMedium + static_cast<uint32_t>(number), static_cast<uint32_t>(step))),
-          _sequence(step == 0)
+          _sequence(maskOf(step == 0))
     {
     }
 
     Vec2 at(uint32_t dimension) const
     {
-        const uint32_t seed = dimensionSeed(_seed, _first + dimension);
         Vec2 point;
         if (_sequence)
-        {
-            sobol2(_pass, seed, point.x, point.y);
-            return point;
-        }
-        const uint32_t key = hash(seed, _pass);
-        return {unitFloat(key), unitFloat(hash(key + 0x9e3779b9u))};
+            sobol2(_pass, dimensionSeed(_seed, _first + dimension), point.x, point.y);
+        else
+            setIndependent(dimension, point.x, point.y);
+        return point;
+    }
+
+    /// Does the same without branches, for loops over lanes.
+    OSGRAYTRACE_INLINE void set(uint32_t dimension, float& x, float& y) const
+    {
+        float sequenceX, sequenceY;
+        sobol2(_pass, dimensionSeed(_seed, _first + dimension), sequenceX, sequenceY);
+        setIndependent(dimension, x, y);
+        x = select(_sequence, sequenceX, x);
+        y = select(_sequence, sequenceY, y);
     }
 
     /// Returns a seed for numbers of any count.
@@ -59,9 +66,19 @@ public:
     }
 
 private:
+    OSGRAYTRACE_INLINE void setIndependent(uint32_t dimension, float& x, float& y) const
+    {
+        const uint32_t key = hash(dimensionSeed(_seed, _first + dimension), _pass);
+        x = unitFloat(key);
+        y = unitFloat(hash(key + 0x9e3779b9u));
+    }
+
     static constexpr uint32_t kMedium = 0x6d656469u; ///< tells these dimensions from all others
     uint32_t _seed = 0, _pass = 0, _first = 0;
-    bool _sequence = true;
+    uint32_t _sequence = ~0u; ///< all bits or none
 };
+
+/// Sets the points of a dimension of sixteen stretches.
+void setNumbers(const MediumNumbers* numbers, uint32_t dimension, FloatLanes& x, FloatLanes& y);
 
 } // namespace osgRayTrace::engine

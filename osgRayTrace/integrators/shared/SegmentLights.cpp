@@ -3,9 +3,9 @@
 #include "osgRayTrace/integrators/shared/SegmentLights.h"
 
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
+#include "osgRayTrace/integrators/shared/SegmentRectangles.h"
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 #include "osgRayTrace/integrators/shared/TreeLights.h"
-#include "osgRayTrace/media/Equiangular.h"
 #include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/Transmittance.h"
@@ -74,9 +74,13 @@ private:
     }
     Vec3 direction(int i) const { return directionOf(*_segments.ray, i); }
 
-    Place near(int i, Vec3 light, float u, float size = 0.0f) const;
-    bool setRectangle(int i, const RectangleLight& rectangle, float along, Vec2 on, bool twoSided,
-                      float offset, float pmf, Vec3 radiance);
+    Place near(int i, Vec3 light, float u) const;
+    Place placeAt(int i, EquiangularSample sample, float u) const;
+    void setStretch(int i);
+    bool setPlace(int i);
+    ShiningRectangle rectangleOf(const LightTable::Choice& chosen) const;
+    bool setRectangle(int i, const ShiningRectangle& light);
+    bool setArea(int i, const LightTable::Choice& chosen);
     Place byFlight(int i, float u) const;
     Place pivotOf(int i, float u) const;
     float phaseDensity(int i, float distance, float cosTheta) const;
@@ -92,17 +96,25 @@ private:
     TileCounts& _counts;
     Vec3Lanes& _radiance;
     LightLanes _samples;
+    StretchLanes _stretches;
     Place _places[kLanes];
 };
 
-/// Returns a point that is spread evenly by angle around a light, or no more densely than around a
-/// light that is size away from the ray.
-Place Segments::near(int i, Vec3 light, float u, float size) const
+/// Returns a point that is spread evenly by angle around a light.
+Place Segments::near(int i, Vec3 light, float u) const
 {
     const RayPart& part = _segments.parts[i];
-    const Equiangular stretch(origin(i), direction(i), part.begin, part.end, light, size);
+    const Equiangular stretch(plainOrigin(*_segments.ray, i), plainDirection(*_segments.ray, i),
+                              part.begin, part.end, plainOf(light));
     const EquiangularSample sample = stretch.sample(u);
     if (!(sample.pdf > 0.0f) || !(sample.pdf < kInfinity)) return {};
+    return placeAt(i, sample, u);
+}
+
+/// Returns the point at a sample, which the number u has chosen.
+Place Segments::placeAt(int i, EquiangularSample sample, float u) const
+{
+    const RayPart& part = _segments.parts[i];
     const MediumRecord& medium = mediumOf(i);
     Vec3 left;
     if (const GridRay* grids = _segments.gridsOf(i))
@@ -203,27 +215,23 @@ bool Segments::setTowards(int i, const Place& place, Vec3 light, Vec3 normal, bo
     return true;
 }
 
-/// Sets the sample of lane i on a rectangle, by solid angle from the place that is found first.
-/// Rays that meet the rectangle would otherwise have a sum of 1 / r over its points, whose variance
-/// has no bound.
-bool Segments::setRectangle(int i, const RectangleLight& rectangle, float along, Vec2 on,
-                            bool twoSided, float offset, float pmf, Vec3 radiance)
+void Segments::setStretch(int i)
 {
-    const auto vec = [](PlainVec3 v) { return Vec3(v.x, v.y, v.z); };
-    const Vec3 corner = vec(rectangle.corner), normal = vec(rectangle.normal);
-    const Vec3 u = vec(rectangle.axisU), v = vec(rectangle.axisV);
-    const Vec3 centre = corner + 0.5f * (u * rectangle.width + v * rectangle.height);
-    const float area = rectangle.width * rectangle.height;
-    const Place place = near(i, centre, along, 0.5f * std::sqrt(area));
-    const SphericalRectangle seen = seenFrom(rectangle, plainOf(place.point));
-    float x = seen.x0 + on.x * rectangle.width, y = seen.y0 + on.y * rectangle.height;
-    const bool wide = isWide(rectangle, seen) != 0;
-    if (wide) squareToSphericalRectangle(seen, on.x, on.y, x, y);
-    const Vec3 light = corner + u * (x - seen.x0) + v * (y - seen.y0);
-    if (!setTowards(i, place, light, normal, twoSided, area, offset, pmf, radiance)) return false;
-    if (!wide) return true;
-    _samples.weight[i] = seen.solidAngle / pmf;
-    return true;
+    _stretches.begin[i] = _segments.parts[i].begin;
+    _stretches.end[i] = _segments.parts[i].end;
+}
+
+/// Sets the place of lane i to the point that was chosen with a sample of a rectangle. Returns
+/// false if no light gets from there.
+bool Segments::setPlace(int i)
+{
+    _places[i] = placeAt(i, {_stretches.t[i], _stretches.pdf[i]}, _stretches.along[i]);
+    return _places[i].weight != Vec3(0.0f);
+}
+
+bool Segments::setRectangle(int i, const ShiningRectangle& light)
+{
+    return rectangleLane(light, *_segments.ray, i, _stretches, _samples) && setPlace(i);
 }
 
 /// Sets the sample of lane i of a directional, point or spot light.
@@ -280,37 +288,67 @@ void Segments::addOneDelta(const SampledLights& lights)
 void Segments::addArea()
 {
     begin();
+    FloatLanes choice;
+    setNumbers(_segments.numbers, MediumChoice, choice, _stretches.along);
+    setNumbers(_segments.numbers, MediumLightPoint, _stretches.u, _stretches.v);
+    LightTable::Choice chosen[kLanes];
+    LaneMask lanes = 0;
     for (const int i : lanesIn(_segments.lanes))
     {
-        const Vec2 choice = numbers(i, MediumChoice), on = numbers(i, MediumLightPoint);
-        const LightTable::Choice chosen = _table.chooseAreaLight(choice.x);
-        if (chosen.light == kInvalid || !(chosen.pmf > 0.0f)) continue;
-        const Light& light = (*_context.lights)[chosen.light];
-        if (const RectangleLight* rectangle = _table.rectangle(chosen.light))
-        {
-            const bool lit =
-                setRectangle(i, *rectangle, choice.y, on, light.twoSided,
-                             _table.pointOffset(chosen.light), chosen.pmf, light.radiance);
-            _samples.lit |= static_cast<LaneMask>(lit) << i;
-            continue;
-        }
-        const std::optional<LightPoint> point = _table.samplePoint(chosen.light, on.x, on.y);
-        if (!point) continue;
-        Vec3 radiance = light.radiance;
-        if (light.kind == LightKind::Mesh)
-        {
-            MaterialPoint at;
-            at.uv = point->uv;
-            const Scene& scene = _context.traced->scene();
-            radiance =
-                _context.traced->materials().emission(scene.instances[light.instance].material, at);
-        }
-        const bool lit = setTowards(i, near(i, point->position, choice.y), point->position,
-                                    point->normal, light.twoSided || light.kind == LightKind::Mesh,
-                                    _table.area(chosen.light), point->offset, chosen.pmf, radiance);
-        _samples.lit |= static_cast<LaneMask>(lit) << i;
+        setStretch(i);
+        chosen[i] = _table.chooseAreaLight(choice[i]);
+        const bool shines = chosen[i].light != kInvalid && chosen[i].pmf > 0.0f;
+        lanes |= static_cast<LaneMask>(shines) << i;
     }
+    // The first rectangle serves all its lanes at once, and those of others are undone: there are
+    // few others without a LightTree.
+    LaneMask first = 0;
+    for (const int i : lanesIn(lanes))
+    {
+        const bool same = chosen[i].light == chosen[firstLane(lanes)].light;
+        first |= static_cast<LaneMask>(same) << i;
+    }
+    if (first && _table.rectangle(chosen[firstLane(first)].light))
+    {
+        const ShiningRectangle light = rectangleOf(chosen[firstLane(first)]);
+        const LaneMask lit = rectangleLanes(light, *_segments.ray, _stretches, _samples) & first;
+        for (const int i : lanesIn(lit))
+            _samples.lit |= static_cast<LaneMask>(setPlace(i)) << i;
+        lanes &= ~first;
+    }
+    for (const int i : lanesIn(lanes))
+        _samples.lit |= static_cast<LaneMask>(setArea(i, chosen[i])) << i;
     finish(visibleLanes(_context, _samples, _counts));
+}
+
+/// Returns a light of the table that is a rectangle.
+ShiningRectangle Segments::rectangleOf(const LightTable::Choice& chosen) const
+{
+    const Light& light = (*_context.lights)[chosen.light];
+    return {*_table.rectangle(chosen.light), _table.pointOffset(chosen.light),
+            maskOf(light.twoSided), 1.0f / chosen.pmf, plainOf(light.radiance)};
+}
+
+/// Sets the sample of lane i on an area light.
+bool Segments::setArea(int i, const LightTable::Choice& chosen)
+{
+    if (_table.rectangle(chosen.light)) return setRectangle(i, rectangleOf(chosen));
+    const Light& light = (*_context.lights)[chosen.light];
+    const std::optional<LightPoint> point =
+        _table.samplePoint(chosen.light, _stretches.u[i], _stretches.v[i]);
+    if (!point) return false;
+    Vec3 radiance = light.radiance;
+    if (light.kind == LightKind::Mesh)
+    {
+        MaterialPoint at;
+        at.uv = point->uv;
+        const Scene& scene = _context.traced->scene();
+        radiance =
+            _context.traced->materials().emission(scene.instances[light.instance].material, at);
+    }
+    return setTowards(i, near(i, point->position, _stretches.along[i]), point->position,
+                      point->normal, light.twoSided || light.kind == LightKind::Mesh,
+                      _table.area(chosen.light), point->offset, chosen.pmf, radiance);
 }
 
 /// Adds one emitter of the LightTree, chosen for some point of each stretch.
@@ -345,9 +383,13 @@ void Segments::addTree()
         else if (emitter.flags & kRectangle)
         {
             const EmitterPoint middle = emitterPoint(_context, emitter, 0.5f, 0.5f);
-            lit =
-                setRectangle(i, rectangleLight(emitter), choice.y, on,
-                             (emitter.flags & kTwoSided) != 0, middle.offset, pmf, middle.radiance);
+            setStretch(i);
+            _stretches.along[i] = choice.y;
+            _stretches.u[i] = on.x;
+            _stretches.v[i] = on.y;
+            lit = setRectangle(i, {rectangleLight(emitter), middle.offset,
+                                   maskOf((emitter.flags & kTwoSided) != 0), 1.0f / pmf,
+                                   plainOf(middle.radiance)});
         }
         else
         {
