@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/media/GridRay.h"
 
-#include "osgRayTrace/media/BlockWalk.h"
 #include "osgRayTrace/media/FreeFlight.h"
+#include "osgRayTrace/media/GridPieces.h"
 #include "osgRayTrace/media/PhaseFunction.h"
 #include "osgRayTrace/media/VolumeSample.h"
 
@@ -19,11 +19,6 @@ namespace
 /// The brightest colour of a point: more would leave no floats for the light of dense volumes.
 constexpr float kBrightest = 1e6f;
 
-float largestOf(Vec3 v)
-{
-    return std::max(v.x, std::max(v.y, v.z));
-}
-
 } // namespace
 
 void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part,
@@ -33,13 +28,11 @@ void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPa
     const Mat3 rows = glm::transpose(cubeFromEngine.linear);
     for (int k = 0; k < 3; ++k)
     {
-        const float wider = margin > 0.0f ? margin * glm::length(rows[k]) : 0.0f;
+        const float wider = margin != 0.0f ? margin * glm::length(rows[k]) : 0.0f;
         const float low = -wider, high = 1.0f + wider;
-        if (d[k] == 0.0f)
-        {
-            if (!(o[k] >= low && o[k] <= high)) part.end = part.begin;
-            continue;
-        }
+        const bool isWithin = o[k] >= low && o[k] <= high;
+        if (!(low <= high) || (d[k] == 0.0f && !isWithin)) part.end = part.begin;
+        if (!(low <= high) || d[k] == 0.0f) continue;
         const float a = (low - o[k]) / d[k], b = (high - o[k]) / d[k];
         part.begin = std::max(part.begin, std::min(a, b));
         part.end = std::min(part.end, std::max(a, b));
@@ -87,99 +80,6 @@ Vec3 Scatterers::sample(Vec3 direction, float choice, float u, float v) const
     return samplePhase(phases[static_cast<std::size_t>(chosen)], direction, u, v);
 }
 
-/// The pieces of a stretch on which the majorant is constant, one after the other.
-class GridRay::Pieces
-{
-public:
-    /// Which pieces get additional tentative collisions.
-    enum class Extra
-    {
-        None,
-        Glowing, ///< those that emit: emission is collected where nothing is extinguished, too
-        Reached, ///< those within reach of what scatters: see setReach
-    };
-
-    Pieces(const GridRay& ray, float begin, float end, Extra wanted = Extra::None)
-        : _ray(ray), _begin(begin), _last(end)
-    {
-        // A few collisions along the way, whose number does not matter for the mean.
-        constexpr float kExtraDepth = 4.0f;
-        const auto extraOn = [](float length)
-        { return length > 0.0f ? kExtraDepth / length : 0.0f; };
-        const bool reached = wanted == Extra::Reached;
-        if (reached && !ray._reached.isEmpty())
-            _reachedExtra = extraOn(ray._reached.end - ray._reached.begin);
-        const float extra = wanted != Extra::None ? extraOn(end - begin) : 0.0f;
-        if (ray._around && (reached ? ray._around->scatters : ray._around->emits))
-            _aroundExtra = extra;
-        for (int i = 0; i < ray._count; ++i)
-        {
-            const auto k = static_cast<std::size_t>(i);
-            RayPart part = ray._spans[k].part;
-            part.begin = std::max(part.begin, begin);
-            part.end = std::min(part.end, end);
-            if (part.isEmpty()) continue;
-            const GridRecord& grid = (*ray._table)[ray._spans[k].grid];
-            _extras[_count] = !reached && grid.emission != Vec3(0.0f) ? extra : 0.0f;
-            _factors[_count] = ray._extinctions[k];
-            _walks[_count++].begin(grid, ray._origin, ray._direction, part);
-        }
-        _end = begin;
-    }
-
-    /// Goes on to the next piece. Returns false behind the last one.
-    bool advance()
-    {
-        _begin = _end;
-        if (!(_begin < _last)) return false;
-        _end = _last;
-        most = 0.0f;
-        least = Vec3(0.0f);
-        for (std::size_t i = 0; i < _count; ++i)
-        {
-            while (_walks[i].end() <= _begin)
-                _walks[i].advance();
-            _end = std::min(_end, _walks[i].end());
-            most += _walks[i].most() * largestOf(_factors[i]);
-            if (_walks[i].most() > 0.0f) most += _extras[i];
-            least += _walks[i].least() * _factors[i];
-        }
-        if (_ray._around && endsWithin(_ray._aroundPart))
-        {
-            _end = std::min(_end, _ray._aroundWay.evenEnd(_begin));
-            const auto [thin, thick] = _ray._aroundWay.densities(_begin, _end);
-            most += largestOf(_ray._around->sigmaT) * thick + _aroundExtra;
-            least += _ray._around->sigmaT * thin;
-        }
-        if (_reachedExtra > 0.0f && endsWithin(_ray._reached)) most += _reachedExtra;
-        return true;
-    }
-
-    float begin() const { return _begin; }
-    float end() const { return _end; }
-
-    float most = 0.0f; ///< extinction that no channel exceeds within the piece [1/length]
-    Vec3 least{0.0f};  ///< extinction that each channel has at least
-
-private:
-    /// Ends the piece where a part begins or ends. Returns whether the part holds the piece.
-    bool endsWithin(const RayPart& part)
-    {
-        if (_begin < part.begin) _end = std::min(_end, part.begin);
-        if (_begin < part.begin || !(_begin < part.end)) return false;
-        _end = std::min(_end, part.end);
-        return true;
-    }
-
-    const GridRay& _ray;
-    BlockWalk _walks[kMostVolumes];
-    Vec3 _factors[kMostVolumes];
-    float _extras[kMostVolumes];
-    float _aroundExtra = 0.0f, _reachedExtra = 0.0f;
-    std::size_t _count = 0;
-    float _begin, _last, _end = 0.0f;
-};
-
 GridRay::GridRay(const GridTable& table, Vec3 origin, Vec3 direction, float begin, float end,
                  GridKinds kinds)
     : _table(&table), _origin(origin), _direction(direction), _extent{end, begin}
@@ -210,10 +110,11 @@ void GridRay::setAround(const MediumRecord& medium, RayPart part)
 void GridRay::setReach(float reach, RayPart part)
 {
     _reached = {kInfinity, -kInfinity};
+    const bool any = _around && _around->isThin();
     for (std::size_t i = 0; i < _table->size(); ++i)
     {
         const GridRecord& grid = (*_table)[i];
-        if (!grid.scatters) continue;
+        if (!grid.scatters && !any) continue;
         RayPart within = part;
         clipToCube(grid.tileFromEngine, _origin, _direction, within, reach);
         clipToCube(grid.imageFromEngine, _origin, _direction, within, reach);

@@ -39,7 +39,7 @@ private:
 constexpr int kMostTentative = 65536;
 
 /// Makes a part end where the ray enters and leaves the unit cube of a space, whose faces are moved
-/// outwards by margin [length of the ray's space].
+/// outwards by margin [length of the ray's space], inwards if it is below 0.
 void clipToCube(const Affine& cubeFromEngine, Vec3 origin, Vec3 direction, RayPart& part,
                 float margin = 0.0f);
 
@@ -105,6 +105,13 @@ enum class GridKinds
     Densities, ///< those of VolumeLaw::Density
 };
 
+/// A part of a ray on which an estimate of the transmittance from some place on is constant.
+struct EvenPart
+{
+    RayPart part;
+    Vec3 left{1.0f};
+};
+
 /// A stretch of a ray with all volumes on it, and the homogeneous medium around them.
 class GridRay
 {
@@ -118,7 +125,7 @@ public:
 
     /// Has flights that tell their tentative collisions make some of them wherever a part of the
     /// ray is nearer than reach to the cube of a volume that scatters [length], also where nothing
-    /// is.
+    /// is. If the medium around is thin and scatters, each volume counts: call setAround before.
     void setReach(float reach, RayPart part);
 
     /// Has the colours of volumes that are lit be lit by a light. Without it they are as they are.
@@ -128,6 +135,13 @@ public:
     bool isEmpty() const { return _count == 0; }
     /// Returns whether a part of the ray is within the reach of setReach.
     bool isReached() const { return !_reached.isEmpty(); }
+    /// Returns a part that holds all that is within the reach of setReach.
+    RayPart reached() const { return _reached; }
+    /// Returns whether a place on the ray is within the box of a volume.
+    bool isWithin(float distance) const;
+    /// Returns the first part behind a distance that the medium around fills and no volume's box
+    /// holds; empty if there is none.
+    RayPart partBetween(float distance) const;
     /// Returns the part of the ray that anything fills, or that is within reach.
     RayPart extent() const { return _extent; }
     bool scatters() const;
@@ -149,6 +163,13 @@ public:
     /// each block in closed form [residual ratio tracking: Novak14, eq. 11].
     Vec3 transmittance(float begin, float end, NumberStream& numbers) const;
 
+    /// Appends the parts of whole in order, each with an estimate of what is left of light from
+    /// whole's begin on [ratio tracking: Novak14, eq. 8]; expected values are the transmittance.
+    /// What is within a volume's box by more than margin [length], or behind where nothing is left,
+    /// is in no part.
+    void evenParts(RayPart whole, float margin, NumberStream& numbers,
+                   std::vector<EvenPart>& parts) const;
+
     /// Returns what scatters at a distance along the ray.
     Scatterers scatterersAt(float distance) const;
 
@@ -159,6 +180,8 @@ private:
     };
     class Pieces;
 
+    void trackRatio(RayPart part, NumberStream& numbers, Vec3& left,
+                    std::vector<EvenPart>& parts) const;
     Vec3 pointAt(float distance) const { return _origin + _direction * distance; }
     Coefficients at(float distance, bool withEmission) const;
 

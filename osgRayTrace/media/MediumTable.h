@@ -32,6 +32,9 @@ struct MediumRecord
     Vec3 rise{0.0f}; ///< [1/engine unit]
     float base = 0.0f;
 
+    /// Returns whether photons are beams in the medium, between volumes if there are any.
+    bool isThin() const { return scatters && !isDense; }
+
     /// Returns the share of the coefficients that is left at a point.
     float densityAt(Vec3 point) const
     {

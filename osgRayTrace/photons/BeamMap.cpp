@@ -243,12 +243,15 @@ BeamMap::BeamMap(const std::vector<PhotonBeam>& beams, float pieceLength) : _bea
     std::vector<ItemBox> boxes;
     for (const PhotonBeam& beam : beams)
     {
-        const float wanted = std::ceil(beam.length / pieceLength);
+        const float begin = beam.begin, length = beam.length - begin;
+        const float wanted = std::ceil(length / pieceLength);
         const int count = static_cast<int>(std::clamp(wanted, 1.0f, kMostPieces));
         for (int k = 0; k < count; ++k)
         {
-            const auto at = [&](int end)
-            { return end == count ? beam.length : beam.length * static_cast<float>(end) / count; };
+            const auto at = [&](int end) {
+                return end == count ? beam.length
+                                    : begin + length * static_cast<float>(end) / count;
+            };
             pieces.push_back({plainOf(beam.origin), plainOf(beam.direction), at(k), at(k + 1),
                               plainOf(beam.power), beam.medium, static_cast<int32_t>(beam.edges)});
             boxes.push_back(boxOf(pieces.back()));
@@ -403,7 +406,7 @@ float distanceToBeams(const std::vector<PhotonBeam>& beams, Vec3 point, Vec3 dir
         const float sine2 = glm::dot(n, n);
         if (!(sine2 > 1e-12f)) continue;
         const float onBeam = glm::dot(glm::cross(w, direction), n) / sine2;
-        if (!(onBeam >= 0.0f) || !(onBeam < beam.length)) continue;
+        if (!(onBeam >= beam.begin) || !(onBeam < beam.length)) continue;
         distances.push_back(std::fabs(glm::dot(w, n)) / std::sqrt(sine2));
     }
     if (count == 0 || distances.size() < count) return kInfinity;

@@ -22,13 +22,15 @@ namespace osgRayTrace::engine
 {
 
 /// Holds the straight way of a photon through a medium, up to the next surface or to where next to
-/// nothing of it is left. Its power does not depend on where the photon has collided.
+/// nothing of it is left. Its power does not depend on where the photon has collided. On a way with
+/// volumes there are several, each with another power: see ChunkGrids.cpp.
 struct PhotonBeam
 {
     Vec3 origin{0.0f};
     Vec3 direction{0.0f}; ///< unit, the way of the light
-    float length = 0.0f;
-    Vec3 power{0.0f}; ///< [W] at the origin, already divided by the number of beams' photons
+    float begin = 0.0f;   ///< of the beam, from the origin on
+    float length = 0.0f;  ///< to the beam's end, from the origin on
+    Vec3 power{0.0f};     ///< [W] at the origin, already divided by the number of beams' photons
     MediumId medium = kOutside;
     uint32_t edges = 0; ///< edges of the path from the light to a collision on the beam
 };

@@ -19,10 +19,10 @@
 // and a second one if there are more than one there; or else one between the first two surfaces.
 // Paths from the eye need that many, as PathMedium.cpp scatters them only where light could follow.
 //
-// Volumes have no closed form of transmittance, which beams would need at every look-up. In scenes
-// with volumes all media therefore store points, of those photons alone that paths cannot find
-// well: which have met mirror-like surfaces and nothing else since they left their light.
-// ChunkGrids.cpp has the flights through volumes.
+// Volumes have no closed form of transmittance, which beams would need at every look-up: photons
+// are points within their boxes, and beams between them. In scenes with volumes only those photons
+// are stored within media that paths cannot find well: which have met mirror-like surfaces and
+// nothing else since they left their light. ChunkGrids.cpp has the flights through volumes.
 #include "osgRayTrace/photons/ChunkFlights.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -88,7 +88,8 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     const MediumRecord& medium = flights.media[flights.within[i]];
     const bool isDirect = flights.bounce == 0 && step == 0;
     if (isDirect || photon >= beams || medium.isDense) return;
-    if (_inputs.traced.traits().volumes) return; // photons are points there
+    const bool volumes = _inputs.traced.traits().volumes;
+    if (volumes && block.direct[i] == 0) return;
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSureBeams / static_cast<float>(step + 1));
     const Vec2 numbers = flightNumbers(photon, flights.bounce, flights.stretch[i], FlightKept);
@@ -110,6 +111,9 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     beam.edges = edges;
     if (!isFinite(beam.power) || !isFinite(beam.origin) || !(beam.length < kInfinity))
         ++_chunk.dropped;
+    else if (volumes)
+        storeBetweenVolumes(
+            beam, hash(flightSeed(flights.bounce, flights.stretch[i], FlightGrid), ~photon));
     else if (beam.length > 0.0f)
         _chunk.beams.push_back(beam);
 }
@@ -161,7 +165,8 @@ ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights
     {
         const bool stores = storesPoints(block, flights, i);
         const GridRay grids = gridsOn(block, flights, i, stores);
-        const bool leavesPoints = stores && (grids.scatters() || grids.isReached());
+        const bool leavesPoints =
+            stores && (grids.isReached() || (!flights.isThin(i) && grids.scatters()));
         if (!grids.isEmpty() || leavesPoints) return flyGrids(block, flights, i, grids);
     }
     const RayPart& part = flights.parts[i];
@@ -200,7 +205,8 @@ ChunkTracer::FlightEnd ChunkTracer::collide(PhotonPathBlock& block, Flights& fli
     if (first) power *= fallenOff(block.light[i], point, distance);
     // A point's power is over the extinction, which has the density of the medium there.
     const float density = std::max(medium.densityAt(point), 1e-30f);
-    if (storesPoints(block, flights, i)) storePoint(block, flights, i, point, power / density);
+    if (medium.isDense && storesPoints(block, flights, i))
+        storePoint(block, flights, i, point, power / density);
     countCollision(block, flights, i);
     power *= medium.sigmaS;
     const float survival = std::min(1.0f, largestOf(power) / before);

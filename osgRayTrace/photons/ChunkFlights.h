@@ -42,6 +42,8 @@ struct ChunkTracer::Flights
     SurfaceLanes surface;
     std::vector<TentativeCollision> tentative; ///< scratch
 
+    /// Returns whether photons are beams on the stretch of a photon, but for within volumes.
+    bool isThin(int i) const { return !parts[i].isEmpty() && media[within[i]].isThin(); }
     bool hasHit(int i) const { return (surface.hits >> i) & 1u; }
     bool isFront(int i) const { return (surface.front >> i) & 1u; }
     MediumId bodyAt(int i) const

@@ -8,6 +8,12 @@
 // the light that the points stand for does not: points are therefore stored around volumes as well,
 // as far as spheres reach. Look-ups multiply by what scatters at the point at which a path from the
 // eye has collided.
+//
+// Points are for what a path from the eye finds within the boxes of volumes, and wherever the
+// medium around is dense. For what it finds in a thin medium between the boxes there are beams. A
+// beam is cut where volumes have taken from its light, by an estimate of their transmittance that
+// is 1 at its origin; what the medium takes is left to the look-up. Beams go on into boxes, too, as
+// far as kernels reach, so that no light is lost at a box in front of which a ray passes.
 #include "osgRayTrace/photons/ChunkFlights.h"
 
 #include "osgRayTrace/media/FreeFlight.h"
@@ -27,9 +33,27 @@ GridRay ChunkTracer::gridsOn(const PhotonPathBlock& block, const Flights& flight
     const float begin = flights.begin[i], end = flights.hasHit(i) ? ray.tFar[i] : kInfinity;
     GridRay grids(_inputs.traced.grids(), Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]),
                   laneOf(block.direction, i), begin, end);
-    if (stores) grids.setReach(kWidestKernel * _inputs.emitter.scene().radius, {begin, end});
     grids.setAround(flights.media[flights.within[i]], flights.parts[i]);
+    if (stores) grids.setReach(kWidestKernel * _inputs.emitter.scene().radius, {begin, end});
     return grids;
+}
+
+/// Stores a beam as parts, each with what volumes have left of its power.
+void ChunkTracer::storeBetweenVolumes(const PhotonBeam& beam, uint32_t seed)
+{
+    const GridRay grids(_inputs.traced.grids(), beam.origin, beam.direction, 0.0f, beam.length);
+    NumberStream numbers(seed);
+    std::vector<EvenPart> parts;
+    grids.evenParts({0.0f, beam.length}, kWidestKernel * _inputs.emitter.scene().radius, numbers,
+                    parts);
+    for (const EvenPart& even : parts)
+    {
+        PhotonBeam part = beam;
+        part.begin = even.part.begin;
+        part.length = even.part.end;
+        part.power *= even.left;
+        _chunk.beams.push_back(part);
+    }
 }
 
 /// Takes a photon along a stretch of a scene with volumes.
@@ -47,14 +71,20 @@ ChunkTracer::FlightEnd ChunkTracer::flyGrids(PhotonPathBlock& block, Flights& fl
         setLane(block.power, i, power * way.left);
         return way.left == Vec3(0.0f) ? FlightEnd::Dies : meet(block, flights, i);
     }
+    const bool thin = flights.isThin(i);
+    if (thin) storeBeam(block, flights, i);
     flights.tentative.clear();
     const GridFlight flight = grids.flight(
         channelPmf(power), numbers, storesPoints(block, flights, i) ? &flights.tentative : nullptr);
     const RayBlock& ray = _rays.ray;
     const Vec3 origin(ray.originX[i], ray.originY[i], ray.originZ[i]);
     float count = 0.0f;
+    const RayPart reached = grids.reached();
     for (const TentativeCollision& collision : flights.tentative)
     {
+        // Beams have the light of a thin medium elsewhere.
+        if (thin && !(collision.distance >= reached.begin && collision.distance <= reached.end))
+            continue;
         const float kept = std::min(1.0f, kSurePoints / (count += 1.0f));
         if (kept < 1.0f && !(numbers.next() < kept)) continue;
         appendPoint(block, flights, i, origin + laneOf(block.direction, i) * collision.distance,

@@ -117,6 +117,7 @@ private:
                     Vec3 power);
     void appendPoint(const PhotonPathBlock& block, const Flights& flights, int i, Vec3 at,
                      Vec3 power);
+    void storeBetweenVolumes(const PhotonBeam& beam, uint32_t seed);
     GridRay gridsOn(const PhotonPathBlock& block, const Flights& flights, int i, bool stores) const;
     FlightEnd flyGrids(PhotonPathBlock& block, Flights& flights, int i, const GridRay& grids);
     FlightEnd scatterInGrids(PhotonPathBlock& block, Flights& flights, int i, const GridRay& grids,

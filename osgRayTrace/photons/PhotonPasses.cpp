@@ -109,7 +109,8 @@ float densityRadius(const std::vector<PhotonBeam>& beams, float most, const Work
                     {
                         const uint32_t key = hash(static_cast<uint32_t>(s), 0x6265616du);
                         const PhotonBeam& beam = beams[key % beams.size()];
-                        const float along = unitFloat(hash(key + 1)) * beam.length;
+                        const float along =
+                            beam.begin + unitFloat(hash(key + 1)) * (beam.length - beam.begin);
                         const Vec3 direction = squareToCone(
                             Vec2(unitFloat(hash(key + 2)), unitFloat(hash(key + 3))), 2.0f);
                         radii[s] = distanceToBeams(beams, beam.origin + beam.direction * along,

@@ -14,7 +14,7 @@ namespace osgRayTrace::engine
 struct VolumePhotons
 {
     BeamMap beams;
-    PointMap points; ///< in dense media, or in scenes with volumes
+    PointMap points; ///< in dense media, and in volumes and next to them
 
     bool isEmpty() const { return beams.size() == 0 && points.size() == 0; }
     std::size_t bytes() const { return beams.bytes() + points.bytes(); }

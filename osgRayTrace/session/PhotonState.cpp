@@ -170,8 +170,8 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
     _beamRadius = first(density.beamRadius);
     _pointRadius = first(density.pointRadius);
     if (context.traced->traits().volumes)
-        _pointRadius =
-            std::max(_floor, std::min(_pointRadius, kWidestKernel * density.sceneRadius));
+        for (float* radius : {&_beamRadius, &_pointRadius})
+            *radius = std::max(_floor, std::min(*radius, kWidestKernel * density.sceneRadius));
 }
 
 void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,

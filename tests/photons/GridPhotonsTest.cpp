@@ -42,6 +42,13 @@ std::vector<GridScene> gridScenes()
     bodies.add(boxMesh({60, 330, 200}, {250, 500, 400}), bodyOf(mediumOf(0.4f, 0.9f, 0.5f)));
     bodies.add(boxMesh({300, 400, 200}, {400, 450, 400}), brushed);
     addSmoke(bodies, {100, 20, 20}, {500, 450, 350}, 0.01f, 0.95f, 0.2f);
+
+    // The smoke reaches through the boundary of a mist in which the light of a ball gathers.
+    scenes.push_back({"smoke across mist", cornellBox()});
+    SceneBuilder& mist = scenes.back().builder;
+    mist.add(sphereMesh({300, 400, 250}, 90.0f, 24), glass(1.5f));
+    mist.add(boxMesh({80, 60, 60}, {500, 300, 440}), bodyOf(mediumOf(0.004f, 0.9f, 0.3f)));
+    addSmoke(mist, {240, 200, 200}, {420, 340, 320}, 0.02f, 0.9f, 0.0f);
     return scenes;
 }
 

@@ -60,15 +60,104 @@ const BeamPieces& tileBeams(Tile& tile, const BeamMap& map, float radius)
 }
 
 /// Returns the bundle that the stretch of a single ray is.
-RayBundle bundleOf(const MediumSegments& segments, int i)
+RayBundle bundleOf(const BeamQuery& query, int i)
 {
-    const RayBlock& ray = *segments.ray;
+    const RayBlock& ray = *query.ray;
     RayBundle bundle;
     bundle.origin = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]);
     bundle.axis = Vec3(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
-    bundle.begin = segments.parts[i].begin;
-    bundle.end = segments.parts[i].end;
+    bundle.begin = query.begin[i];
+    bundle.end = query.end[i];
     return bundle;
+}
+
+/// Adds up the beams on the stretches of a query, whose lanes' rays have these throughputs at the
+/// stretches' begin.
+class BeamGather
+{
+public:
+    BeamGather(Tile& tile, const PathBlock& block, const MediumSegments& segments, bool fromCamera)
+        : _tile(tile), _block(block), _segments(segments), _fromCamera(fromCamera)
+    {
+    }
+
+    void add(const BeamQuery& query, const Vec3Lanes& throughput);
+
+private:
+    void addLane(int i, const Vec3Lanes& throughput)
+    {
+        const Vec3 sum = laneOf(throughput, i) * laneOf(_radiance, i);
+        _tile.sums.add(_block.flagsOf(i), sum);
+        if (GatheredPhotons* gathered = _tile.result.photons.gathered)
+            gathered->carried += luminance(sum);
+    }
+
+    Tile& _tile;
+    const PathBlock& _block;
+    const MediumSegments& _segments;
+    const bool _fromCamera;
+    Vec3Lanes _radiance;
+};
+
+void BeamGather::add(const BeamQuery& query, const Vec3Lanes& throughput)
+{
+    const BeamMap& map = _tile.context.volumePhotons->beams;
+    if (_fromCamera)
+    {
+        const LaneMask all = kAllLanes;
+        gatherBeams(tileBeams(_tile, map, query.radius), bundleOf(&_segments.ray, &all, 1), query,
+                    _radiance);
+        for (const int i : lanesIn(query.lanes))
+            addLane(i, throughput);
+        return;
+    }
+    for (const int i : lanesIn(query.lanes))
+    {
+        const RayBundle bundle = bundleOf(query, i);
+        map.find(bundle, query.radius, _tile.rayBeams);
+        BeamQuery single = query;
+        single.lanes = 1u << i;
+        gatherBeams(_tile.rayBeams, bundle, single, _radiance);
+        addLane(i, throughput);
+    }
+}
+
+/// Adds up the beams between volumes, part by part of each ray. What the volumes leave of the
+/// light between a part and the one before is estimated.
+void addBetweenVolumes(BeamGather& gather, const PathBlock& block, const MediumSegments& segments,
+                       BeamQuery& query)
+{
+    Vec3Lanes throughput = block.throughput;
+    FloatLanes begin, behind; // of the last part
+    for (const int i : lanesIn(query.lanes))
+        begin[i] = behind[i] = segments.parts[i].begin;
+    for (uint32_t number = 0; query.lanes; ++number)
+    {
+        for (const int i : lanesIn(query.lanes))
+        {
+            const GridRay* grids = segments.gridsOf(i);
+            RayPart part;
+            if (grids)
+                part = grids->partBetween(behind[i]);
+            else if (number == 0)
+                part = segments.parts[i];
+            Vec3 left(1.0f);
+            if (grids && !part.isEmpty())
+            {
+                NumberStream numbers(segments.numbers[i].seedOf(MediumGridBeams + number));
+                left = grids->transmittance(begin[i], part.begin, numbers);
+            }
+            if (part.isEmpty() || left == Vec3(0.0f))
+            {
+                query.lanes &= ~(1u << i);
+                continue;
+            }
+            setLane(throughput, i, laneOf(throughput, i) * left);
+            query.begin[i] = begin[i] = part.begin;
+            query.end[i] = behind[i] = part.end;
+        }
+        if (query.lanes) gather.add(query, throughput);
+    }
 }
 
 } // namespace
@@ -77,35 +166,13 @@ void addBeams(Tile& tile, const PathBlock& block, const MediumSegments& segments
               int number, bool fromCamera)
 {
     const PassContext& context = tile.context;
-    const BeamMap& map = context.volumePhotons->beams;
-    if (!lanes || map.size() == 0) return;
-    const BeamQuery query = queryOf(context, segments, lanes, number);
-    Vec3Lanes radiance;
-    const auto add = [&](int i)
-    {
-        const Vec3 sum = laneOf(block.throughput, i) * laneOf(radiance, i);
-        tile.sums.add(block.flagsOf(i), sum);
-        if (GatheredPhotons* gathered = tile.result.photons.gathered)
-            gathered->carried += luminance(sum);
-    };
-    if (fromCamera)
-    {
-        const LaneMask all = kAllLanes;
-        gatherBeams(tileBeams(tile, map, context.beamRadius), bundleOf(&segments.ray, &all, 1),
-                    query, radiance);
-        for (const int i : lanesIn(lanes))
-            add(i);
-        return;
-    }
-    for (const int i : lanesIn(lanes))
-    {
-        const RayBundle bundle = bundleOf(segments, i);
-        map.find(bundle, context.beamRadius, tile.rayBeams);
-        BeamQuery single = query;
-        single.lanes = 1u << i;
-        gatherBeams(tile.rayBeams, bundle, single, radiance);
-        add(i);
-    }
+    if (!lanes || context.volumePhotons->beams.size() == 0) return;
+    BeamQuery query = queryOf(context, segments, lanes, number);
+    BeamGather gather(tile, block, segments, fromCamera);
+    if (segments.grids)
+        addBetweenVolumes(gather, block, segments, query);
+    else
+        gather.add(query, block.throughput);
 }
 
 } // namespace osgRayTrace::engine

@@ -98,6 +98,8 @@ void MediumWalk::addPhotonBeams(int step)
     LaneMask lanes = 0;
     for (const int i : lanesIn(_segments.lanes))
         lanes |= static_cast<LaneMask>(!_block.flagsOf(i).hasTaken()) << i;
+    for (const int i : lanesIn(_grids ? lanes : 0))
+        if (!_media[_segments.media[i]].isThin()) lanes &= ~(1u << i);
     addBeams(_tile, _block, _segments, lanes, _number, _number == 0 && step == 0);
 }
 
@@ -215,7 +217,7 @@ MediumWalk::End MediumWalk::collide(int i, float distance)
     const RayBlock& ray = _block.rays.ray;
     const Vec3 before = directionOf(ray, i);
     const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    if (medium.isDense || _causticsAlone) addPhotonPoints(i, distance, throughput);
+    if (medium.isDense) addPhotonPoints(i, distance, throughput);
     const float found = collisionProbability(_tile.context, _segments, i);
     if (!survives(i, throughput)) return End::Dies;
     const Vec2 u = numbers.at(MediumPhase);

@@ -93,7 +93,7 @@ private:
     const bool _last;     ///< rays find emission alone
     const PhotonUse _use; ///< of the photons that rays look up
     const bool _collides; ///< paths have an edge left for light behind a collision
-    /// Collisions look up photons that have met mirror-like surfaces alone, and find other light.
+    /// Photons within media have met mirror-like surfaces alone: collisions find other light.
     const bool _causticsAlone;
     LaneMask _open, _collided = 0;
     FloatLanes _begin; ///< where on the ray the stretch begins

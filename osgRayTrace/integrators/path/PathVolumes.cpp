@@ -54,7 +54,8 @@ MediumWalk::End MediumWalk::scatterInGrids(int i, const GridRay& grids, float di
     const RayBlock& ray = _block.rays.ray;
     const Vec3 before = directionOf(ray, i);
     const Vec3 point = Vec3(ray.originX[i], ray.originY[i], ray.originZ[i]) + before * distance;
-    addPhotonPoints(i, distance, laneOf(_block.throughput, i), &here);
+    if (_media[_segments.media[i]].isDense || grids.isWithin(distance)) // else there are beams
+        addPhotonPoints(i, distance, laneOf(_block.throughput, i), &here);
     const Vec2 u = numbers.at(MediumPhase);
     const Vec3 after = here.sample(before, numbers.at(MediumBoundary).x, u.x, u.y);
     const float cosTheta = glm::dot(before, after), pdf = here.pdf(cosTheta);

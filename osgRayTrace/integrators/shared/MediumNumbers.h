@@ -11,17 +11,18 @@ namespace osgRayTrace::engine
 /// Names the use of each two-dimensional point of a stretch.
 enum MediumDimension : uint32_t
 {
-    MediumFlight = 0,           ///< x: free flight, y: Russian roulette
-    MediumPhase = 1,            ///< direction after the collision
-    MediumBoundary = 2,         ///< direction at a smooth boundary
-    MediumChoice = 3,           ///< x: which light, y: which point on the ray
-    MediumLightPoint = 4,       ///< point on the light
-    MediumSkyPoint = 5,         ///< x: which point on the ray, y: which stratum of the sky
-    MediumSky = 6,              ///< direction of the sky
-    MediumGrid = 0x40000000,    ///< a seed: free flights through volumes
-    MediumGridWay = 0x40000001, ///< a seed: transmittance of volumes up to a point
-    MediumDelta = 7,            ///< x: which point on the ray; 7 + 2 k of light k
-    MediumDeltaPoint = 8,       ///< point on the light; 8 + 2 k of light k
+    MediumFlight = 0,             ///< x: free flight, y: Russian roulette
+    MediumPhase = 1,              ///< direction after the collision
+    MediumBoundary = 2,           ///< direction at a smooth boundary
+    MediumChoice = 3,             ///< x: which light, y: which point on the ray
+    MediumLightPoint = 4,         ///< point on the light
+    MediumSkyPoint = 5,           ///< x: which point on the ray, y: which stratum of the sky
+    MediumSky = 6,                ///< direction of the sky
+    MediumGrid = 0x40000000,      ///< a seed: free flights through volumes
+    MediumGridWay = 0x40000001,   ///< a seed: transmittance of volumes up to a point
+    MediumGridBeams = 0x80000000, ///< a seed: that up to beams; 0x80000000 + k behind k volumes
+    MediumDelta = 7,              ///< x: which point on the ray; 7 + 2 k of light k
+    MediumDeltaPoint = 8,         ///< point on the light; 8 + 2 k of light k
 };
 
 /// The numbers of one stretch. The first stretch of each ray takes points of Sobol's sequence over
