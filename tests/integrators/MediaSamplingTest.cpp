@@ -235,6 +235,17 @@ TEST_CASE("free flights: no depth makes a weight that is not finite", "[integrat
             }
 }
 
+TEST_CASE("free flights: the optical depth of a number keeps its digits", "[integrators][media]")
+{
+    CHECK(depthOf(0.0f) == 0.0f);
+    double worst = 0.0;
+    for (double u = 1e-20; u < 1.0; u *= 1.003)
+        worst = std::max(
+            worst, std::fabs(double(depthOf(float(u))) / -std::log1p(-double(float(u))) - 1.0));
+    CHECK(worst < 2.5e-7);
+    CHECK(depthOf(kOneMinusEpsilon) == Approx(24.0 * std::log(2.0)));
+}
+
 TEST_CASE("equiangular points have the density that is evaluated",
           "[integrators][statistics][media]")
 {
