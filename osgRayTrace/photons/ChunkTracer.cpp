@@ -26,6 +26,20 @@ bool storesPhotons(const Bsdf& bsdf)
     return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
 }
 
+/// Returns the lanes whose power is finite.
+OSGRAYTRACE_KERNEL
+LaneMask finiteLanes(const Vec3Lanes& power)
+{
+    LaneMask finite = 0;
+    OSGRAYTRACE_SIMD_OR(finite)
+    for (int i = 0; i < kLanes; ++i)
+        finite |= bitOfLane(maskOf(std::fabs(power.x[i]) < kInfinity) &
+                                maskOf(std::fabs(power.y[i]) < kInfinity) &
+                                maskOf(std::fabs(power.z[i]) < kInfinity),
+                            i);
+    return finite;
+}
+
 /// Returns a number of a face. A photon that media scatter may meet a face again.
 uint32_t faceKey(uint32_t instance, uint32_t primitive, uint32_t stretch)
 {
@@ -102,7 +116,6 @@ void ChunkTracer::absorb(PhotonPathBlock& block, const SurfaceLanes& surface) co
 /// glossy.
 bool ChunkTracer::isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const
 {
-    if (!((_glossy >> i) & 1u)) return false;
     if (!_inputs.traced.materials()[surface.material[i]].constant) return false;
     return _inputs.options.use != PhotonUse::Caustics || block.direct[i] == 0;
 }
@@ -111,18 +124,21 @@ bool ChunkTracer::isUnread(const PhotonPathBlock& block, const SurfaceLanes& sur
 void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                         int bounce)
 {
-    for (const int i : lanesIn(lanes))
-    {
-        if (isUnread(block, surface, i)) continue;
-        const Vec3 power = laneOf(block.power, i);
-        if (isFinite(power))
-            _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
-                                      power, laneOf(surface.geometricNormal, i),
-                                      edgesAt(block, i, bounce), block.direct[i] != 0,
-                                      _chunk.bins[block.photon[i] - _first]});
-        else
-            ++_chunk.dropped;
-    }
+    for (const int i : lanesIn(lanes & _glossy))
+        if (isUnread(block, surface, i)) lanes &= ~(1u << i);
+    const LaneMask stored = lanes & finiteLanes(block.power);
+    _chunk.dropped += static_cast<uint64_t>(countLanes(lanes & ~stored));
+    if (!stored) return;
+    Photon* photon = _chunk.photons.room(kLanes);
+    for (const int i : lanesIn(stored))
+        *photon++ = {laneOf(surface.position, i),
+                     -laneOf(block.direction, i),
+                     laneOf(block.power, i),
+                     laneOf(surface.geometricNormal, i),
+                     edgesAt(block, i, bounce),
+                     block.direct[i] != 0,
+                     _chunk.bins[block.photon[i] - _first]};
+    _chunk.photons.push(static_cast<uint32_t>(countLanes(stored)));
 }
 
 /// Samples the surface model of one lane, of any kind.

@@ -46,7 +46,7 @@ struct ChunkInputs
 /// Holds the photons of a chunk and what tracing them counted.
 struct PhotonChunk
 {
-    std::vector<Photon> photons;
+    PhotonBlocks photons;
     std::vector<PhotonBeam> beams;
     std::vector<PhotonPoint> points;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
