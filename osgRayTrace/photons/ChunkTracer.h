@@ -34,6 +34,8 @@ enum PhotonDimension : uint32_t
 struct ChunkInputs
 {
     const TracedScene& traced;
+    const SceneTraits& traits; ///< of the scene, as its materials are
+    const MaterialTable& materials;
     const std::vector<Light>& lights;
     const PhotonEmitter& emitter;
     const PhotonGuide* photonGuide; ///< null: photons are guided by the scene alone
@@ -62,7 +64,7 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk)
-        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traced.traits().media)
+        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traits.media)
     {
     }
 
@@ -129,7 +131,7 @@ private:
     const Bsdf* bsdfInBodies(const PhotonPathBlock& block, const SurfaceLanes& surface, int i);
     uint32_t edgesAt(const PhotonPathBlock& block, int i, int bounce) const
     {
-        if (!_inputs.traced.traits().media) return static_cast<uint32_t>(bounce) + 1;
+        if (!_inputs.traits.media) return static_cast<uint32_t>(bounce) + 1;
         return static_cast<uint32_t>(block.met[i] + 1) + block.late[i];
     }
 

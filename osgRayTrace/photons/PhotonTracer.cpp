@@ -46,19 +46,19 @@ namespace osgRayTrace::engine
 void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
 {
     SurfaceLanes surface;
-    const bool media = _inputs.traced.traits().media;
+    const bool media = _inputs.traits.media;
     if (media)
         travel(block, active, bounce, surface);
     else
         findSurfaces(block, active, bounce, surface);
-    if (_inputs.traced.traits().attenuation && !media) absorb(block, surface);
+    if (_inputs.traits.attenuation && !media) absorb(block, surface);
     if (bounce == 0) leaveLight(block, surface);
     const LaneMask stores = classify(block, surface) & ~(_oneSided & ~_seen);
     if (bounce > 0 || _collided)
         store(block, surface, bounce > 0 ? stores : stores & _collided, bounce);
     if (!media && bounce + 2 > _inputs.options.maxBounces)
         return; // the next surface would be too far for any eye
-    if (_inputs.traced.traits().subsurface) walkBelowSurfaces(block, surface, bounce);
+    if (_inputs.traits.subsurface) walkBelowSurfaces(block, surface, bounce);
     scatter(block, surface, bounce);
 }
 
@@ -81,7 +81,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
-    if (_inputs.traced.traits().media)
+    if (_inputs.traits.media)
         for (int i = 0; i < kLanes; ++i)
         {
             const bool used = (lanes >> i) & 1u;
@@ -137,6 +137,8 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
     const auto culls = [](const Material& material) { return material.cullsAllRays; };
     const auto isShadowless = [](const Light& light) { return !light.castsShadows; };
     const ChunkInputs inputs{traced,
+                             traced.traits(),
+                             traced.materials(),
                              lights,
                              emitter,
                              photonGuide,
