@@ -28,28 +28,20 @@ float transformMagnitude(const Affine& m, Vec3 a, Vec3 b, Vec3 c)
     return vertex * row + largestOf(m.translation);
 }
 
-/// Reads a triangle into lane i. Returns true if the triangle has vertex normals.
-OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i,
-                                     TriangleLanes& lanes)
+/// Sets the vertices of lane i to those of a triangle of an instance that a transform places.
+void placeTriangle(const SurfaceRecord& record, UVec3 t, int i, TriangleLanes& lanes)
 {
-    const UVec3 t = record.triangles[primitive];
-    Vec3 a = record.positions[t.x];
-    Vec3 b = record.positions[t.y];
-    Vec3 c = record.positions[t.z];
-    lanes.transformBound[i] = 0.0f;
-    if (record.placed)
-    {
-        const Affine& m = record.placed->engineFromLocal;
-        lanes.transformBound[i] = transformMagnitude(m, a, b, c);
-        a = transformPoint(m, a);
-        b = transformPoint(m, b);
-        c = transformPoint(m, c);
-    }
-    setLane(lanes.a, i, a);
-    setLane(lanes.b, i, b);
-    setLane(lanes.c, i, c);
-    if (!record.normals) return false;
+    const Vec3 a = record.positions[t.x], b = record.positions[t.y], c = record.positions[t.z];
+    const Affine& m = record.placed->engineFromLocal;
+    lanes.transformBound[i] = transformMagnitude(m, a, b, c);
+    setLane(lanes.a, i, transformPoint(m, a));
+    setLane(lanes.b, i, transformPoint(m, b));
+    setLane(lanes.c, i, transformPoint(m, c));
+}
 
+/// Sets the vertex normals of lane i to those of a triangle.
+void loadNormals(const SurfaceRecord& record, UVec3 t, int i, TriangleLanes& lanes)
+{
     Vec3 na = record.normals[t.x];
     Vec3 nb = record.normals[t.y];
     Vec3 nc = record.normals[t.z];
@@ -64,16 +56,39 @@ OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primi
     setLane(lanes.na, i, na);
     setLane(lanes.nb, i, nb);
     setLane(lanes.nc, i, nc);
-    return true;
 }
 
-/// Sets the vertices of lane i to zero.
-void clearLane(TriangleLanes& lanes, int i)
+/// Reads a triangle into lane i. Returns true if the triangle has vertex normals.
+OSGRAYTRACE_INLINE bool loadTriangle(const SurfaceRecord& record, uint32_t primitive, int i,
+                                     TriangleLanes& lanes)
 {
-    setLane(lanes.a, i, Vec3(0.0f));
-    setLane(lanes.b, i, Vec3(0.0f));
-    setLane(lanes.c, i, Vec3(0.0f));
-    lanes.transformBound[i] = 0.0f;
+    const UVec3 t = record.triangles[primitive];
+    if (record.placed)
+        placeTriangle(record, t, i, lanes);
+    else
+    {
+        setLane(lanes.a, i, plainOf(record.positions[t.x]));
+        setLane(lanes.b, i, plainOf(record.positions[t.y]));
+        setLane(lanes.c, i, plainOf(record.positions[t.z]));
+        lanes.transformBound[i] = 0.0f;
+    }
+    if (record.normals) loadNormals(record, t, i, lanes);
+    return record.normals != nullptr;
+}
+
+/// Sets the vertices and materials of all lanes to zero.
+OSGRAYTRACE_KERNEL
+void clearLanes(TriangleLanes& lanes, UintLanes& material)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        setLane(lanes.a, i, PlainVec3{0.0f, 0.0f, 0.0f});
+        setLane(lanes.b, i, PlainVec3{0.0f, 0.0f, 0.0f});
+        setLane(lanes.c, i, PlainVec3{0.0f, 0.0f, 0.0f});
+        lanes.transformBound[i] = 0.0f;
+        material[i] = 0;
+    }
 }
 
 /// Sets position, normals, offset and minCosine of lane i; the shading normal becomes the plane's.
@@ -254,14 +269,9 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     }
     TriangleLanes triangles;
     LaneMask smooth = 0, mirrored = 0;
-    for (int i = 0; i < kLanes; ++i)
+    if (hits != kAllLanes) clearLanes(triangles, surface.material);
+    for (const int i : lanesIn(hits))
     {
-        if (!((hits >> i) & 1u))
-        {
-            clearLane(triangles, i);
-            surface.material[i] = 0;
-            continue;
-        }
         const uint32_t instance = hitInstance(block.geometry[i], block.instance[i]);
         const SurfaceRecord& record = table[instance];
         smooth |= static_cast<LaneMask>(loadTriangle(record, block.primitive[i], i, triangles))

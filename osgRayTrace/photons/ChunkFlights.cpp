@@ -88,7 +88,7 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
     const MediumRecord& medium = flights.media[flights.within[i]];
     const bool isDirect = flights.bounce == 0 && step == 0;
     if (isDirect || photon >= beams || medium.isDense) return;
-    const bool volumes = _inputs.traced.traits().volumes;
+    const bool volumes = _inputs.traits.volumes;
     if (volumes && block.direct[i] == 0) return;
     if (edges > static_cast<uint32_t>(_inputs.options.maxBounces)) return;
     const float kept = std::min(1.0f, kSureBeams / static_cast<float>(step + 1));
@@ -122,7 +122,7 @@ void ChunkTracer::storeBeam(const PhotonPathBlock& block, const Flights& flights
 /// from its light; in scenes with volumes, if it has met mirror-like surfaces and nothing else.
 bool ChunkTracer::storesPoints(const PhotonPathBlock& block, const Flights& flights, int i) const
 {
-    if (_inputs.traced.traits().volumes) return flights.bounce > 0 && block.direct[i] != 0;
+    if (_inputs.traits.volumes) return flights.bounce > 0 && block.direct[i] != 0;
     return flights.media[flights.within[i]].isDense &&
            (flights.bounce > 0 || ((_collided >> i) & 1u) != 0);
 }
@@ -161,7 +161,7 @@ bool ChunkTracer::mustArrive(const Flights& flights) const
 /// Takes a photon along its stretch.
 ChunkTracer::FlightEnd ChunkTracer::fly(PhotonPathBlock& block, Flights& flights, int i)
 {
-    if (_inputs.traced.traits().volumes)
+    if (_inputs.traits.volumes)
     {
         const bool stores = storesPoints(block, flights, i);
         const GridRay grids = gridsOn(block, flights, i, stores);
@@ -267,7 +267,7 @@ ChunkTracer::FlightEnd ChunkTracer::meet(PhotonPathBlock& block, Flights& flight
         LaneMask passed = _inputs.culls || _inputs.shadowless
                               ? passFaces(block, flights.surface, lane, bounce, flights.stretch[i])
                               : 0;
-        if (!passed && _inputs.traced.traits().panes)
+        if (!passed && _inputs.traits.panes)
             passed = passPanes(block, flights.surface, lane, bounce, flights.stretch[i]);
         if (!passed) return FlightEnd::Surface;
     }
@@ -340,7 +340,7 @@ const Bsdf* ChunkTracer::bsdfInBodies(const PhotonPathBlock& block, const Surfac
                                       int i)
 {
     const Bsdf* const bsdf = bsdfAt(surface, i);
-    if (!_inputs.traced.traits().media || !_inputs.traced.media().nests()) return bsdf;
+    if (!_inputs.traits.media || !_inputs.traced.media().nests()) return bsdf;
     const MediumTable& media = _inputs.traced.media();
     if (bsdf != &_textured[i]) _textured[i] = *bsdf;
     setRelativeIor(media, block.bodiesOf(i), media.interiorOf(surface.material[i]),
@@ -355,7 +355,7 @@ LaneMask ChunkTracer::enterBodies(PhotonPathBlock& block, const SurfaceLanes& su
                                   LaneMask alive)
 {
     const MediumTable& media = _inputs.traced.media();
-    const MaterialTable& materials = _inputs.traced.materials();
+    const MaterialTable& materials = _inputs.materials;
     for (const int i : lanesIn(alive))
     {
         const MediumId body = media.interiorOf(surface.material[i]);

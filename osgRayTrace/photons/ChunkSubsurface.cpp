@@ -117,12 +117,11 @@ bool ChunkTracer::walkBelowSurface(PhotonPathBlock& block, const SurfaceLanes& s
     const Vec3 direction = laneOf(block.direction, i), power = laneOf(block.power, i);
     Bsdf whole = *_bsdfs[i];
     if (whole.needsAxes()) alignLayers(_inputs.traced, _rays, surface, i, normal, whole);
-    const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+    const MaterialRecord& record = _inputs.materials[surface.material[i]];
     SubsurfaceEntry entry;
-    entry.sigma =
-        record.radiusVaries
-            ? _inputs.traced.materials().subsurfaceSigma(surface.material[i], pointAt(surface, i))
-            : record.subsurfaceSigma;
+    entry.sigma = record.radiusVaries
+                      ? _inputs.materials.subsurfaceSigma(surface.material[i], pointAt(surface, i))
+                      : record.subsurfaceSigma;
     entry.offset = surface.offset[i];
     const Vec3 wo = toLocal(-direction, normal);
     const Vec3 channels = walkingChannels(entry.sigma, entry.offset);
@@ -233,8 +232,7 @@ void ChunkTracer::walkBelowSurfaces(PhotonPathBlock& block, SurfaceLanes& surfac
 {
     LaneMask entering = 0;
     for (const int i : lanesIn(_general & ~mirrorsOnly(bounce)))
-        if (_inputs.traced.materials()[surface.material[i]].subsurface &&
-            ((surface.front >> i) & 1u) != 0)
+        if (_inputs.materials[surface.material[i]].subsurface && ((surface.front >> i) & 1u) != 0)
             entering |= 1u << i;
     if (!entering) return;
     facingNormalLanes(_rays.ray, surface, _normal);

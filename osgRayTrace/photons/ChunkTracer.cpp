@@ -26,6 +26,20 @@ bool storesPhotons(const Bsdf& bsdf)
     return !bsdf.isSmooth() && (bsdf.reflects() || (bsdf.transmits() && bsdf.eta != 1.0f));
 }
 
+/// Returns the lanes whose power is finite.
+OSGRAYTRACE_KERNEL
+LaneMask finiteLanes(const Vec3Lanes& power)
+{
+    LaneMask finite = 0;
+    OSGRAYTRACE_SIMD_OR(finite)
+    for (int i = 0; i < kLanes; ++i)
+        finite |= bitOfLane(maskOf(std::fabs(power.x[i]) < kInfinity) &
+                                maskOf(std::fabs(power.y[i]) < kInfinity) &
+                                maskOf(std::fabs(power.z[i]) < kInfinity),
+                            i);
+    return finite;
+}
+
 /// Returns a number of a face. A photon that media scatter may meet a face again.
 uint32_t faceKey(uint32_t instance, uint32_t primitive, uint32_t stretch)
 {
@@ -38,7 +52,7 @@ uint32_t faceKey(uint32_t instance, uint32_t primitive, uint32_t stretch)
 /// Returns the point at which the material of a lane's surface is asked for.
 MaterialPoint ChunkTracer::pointAt(const SurfaceLanes& surface, int i) const
 {
-    const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+    const MaterialRecord& record = _inputs.materials[surface.material[i]];
     const RayBlock& ray = _rays.ray;
     const Vec3 direction(ray.directionX[i], ray.directionY[i], ray.directionZ[i]);
     return materialPointOf(_inputs.traced.surfaces()[surface.instance[i]], record,
@@ -49,10 +63,10 @@ MaterialPoint ChunkTracer::pointAt(const SurfaceLanes& surface, int i) const
 /// Returns the surface model of a lane, which stays until the next block.
 const Bsdf* ChunkTracer::bsdfAt(const SurfaceLanes& surface, int i)
 {
-    const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+    const MaterialRecord& record = _inputs.materials[surface.material[i]];
     const bool front = (surface.front >> i) & 1u;
     if (record.constant && !record.pane) return front ? &record.front : &record.back;
-    _textured[i] = _inputs.traced.materials().bsdf(surface.material[i], pointAt(surface, i));
+    _textured[i] = _inputs.materials.bsdf(surface.material[i], pointAt(surface, i));
     // passPanes has taken this lobe.
     if (_textured[i].thin && _textured[i].isSmooth()) _textured[i].transmission = Vec3(0.0f);
     return &_textured[i];
@@ -90,7 +104,7 @@ void ChunkTracer::absorb(PhotonPathBlock& block, const SurfaceLanes& surface) co
 {
     for (const int i : lanesIn(surface.hits & ~surface.front))
     {
-        const MaterialRecord& record = _inputs.traced.materials()[surface.material[i]];
+        const MaterialRecord& record = _inputs.materials[surface.material[i]];
         if (!record.absorbs) continue;
         setLane(block.power, i,
                 laneOf(block.power, i) * transmittanceOver(record, _rays.ray.tFar[i]));
@@ -102,8 +116,7 @@ void ChunkTracer::absorb(PhotonPathBlock& block, const SurfaceLanes& surface) co
 /// glossy.
 bool ChunkTracer::isUnread(const PhotonPathBlock& block, const SurfaceLanes& surface, int i) const
 {
-    if (!((_glossy >> i) & 1u)) return false;
-    if (!_inputs.traced.materials()[surface.material[i]].constant) return false;
+    if (!_inputs.materials[surface.material[i]].constant) return false;
     return _inputs.options.use != PhotonUse::Caustics || block.direct[i] == 0;
 }
 
@@ -111,18 +124,22 @@ bool ChunkTracer::isUnread(const PhotonPathBlock& block, const SurfaceLanes& sur
 void ChunkTracer::store(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                         int bounce)
 {
-    for (const int i : lanesIn(lanes))
-    {
-        if (isUnread(block, surface, i)) continue;
-        const Vec3 power = laneOf(block.power, i);
-        if (isFinite(power))
-            _chunk.photons.push_back({laneOf(surface.position, i), -laneOf(block.direction, i),
-                                      power, laneOf(surface.geometricNormal, i),
-                                      edgesAt(block, i, bounce), block.direct[i] != 0,
-                                      _chunk.bins[block.photon[i] - _first]});
-        else
-            ++_chunk.dropped;
-    }
+    for (const int i : lanesIn(lanes & _glossy))
+        if (isUnread(block, surface, i)) lanes &= ~(1u << i);
+    const LaneMask stored = lanes & finiteLanes(block.power);
+    if (lanes != stored) _chunk.dropped += static_cast<uint64_t>(countLanes(lanes & ~stored));
+    if (!stored) return;
+    Photon* const room = _chunk.photons.room(kLanes);
+    Photon* photon = room;
+    for (const int i : lanesIn(stored))
+        *photon++ = {laneOf(surface.position, i),
+                     -laneOf(block.direction, i),
+                     laneOf(block.power, i),
+                     laneOf(surface.geometricNormal, i),
+                     edgesAt(block, i, bounce),
+                     block.direct[i] != 0,
+                     _chunk.bins[block.photon[i] - _first]};
+    _chunk.photons.push(static_cast<uint32_t>(photon - room));
 }
 
 /// Samples the surface model of one lane, of any kind.
@@ -185,14 +202,14 @@ void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, i
         scatterOne(block, surface, i, ((mustMirror >> i) & 1u) != 0);
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
-    if (_inputs.traced.traits().media) alive = enterBodies(block, surface, alive);
+    if (_inputs.traits.media) alive = enterBodies(block, surface, alive);
     _paths.append(block, alive);
 }
 
 /// Sorts the lanes by what their surfaces are; returns those that photons are stored at.
 LaneMask ChunkTracer::classify(const PhotonPathBlock& block, const SurfaceLanes& surface)
 {
-    const MaterialTable& materials = _inputs.traced.materials();
+    const MaterialTable& materials = _inputs.materials;
     LaneMask stores = 0;
     _diffuse = _smooth = _general = _glossy = _aligned = 0;
     for (const int i : lanesIn(surface.hits))
@@ -231,7 +248,7 @@ LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surf
     LaneMask passed = 0;
     for (const int i : lanesIn(lanes & surface.hits))
     {
-        const Material& material = *_inputs.traced.materials()[surface.material[i]].material;
+        const Material& material = *_inputs.materials[surface.material[i]].material;
         const LaneMask lane = 1u << i;
         bool passes = bounce == 0 && !_inputs.lights[block.light[i]].castsShadows;
         if (material.cullsAllRays)
@@ -259,7 +276,7 @@ LaneMask ChunkTracer::passFaces(PhotonPathBlock& block, const SurfaceLanes& surf
 LaneMask ChunkTracer::passPanes(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask lanes,
                                 int bounce, uint32_t stretch)
 {
-    const MaterialTable& materials = _inputs.traced.materials();
+    const MaterialTable& materials = _inputs.materials;
     LaneMask passed = 0;
     for (const int i : lanesIn(lanes & surface.hits))
     {
@@ -318,7 +335,7 @@ void ChunkTracer::findSurfaces(PhotonPathBlock& block, LaneMask active, int boun
     loadRays(block, _rays);
     _oneSided = _seen = 0;
     meetSurfaces(_rays, active, surface);
-    const bool panes = _inputs.traced.traits().panes;
+    const bool panes = _inputs.traits.panes;
     const bool facesPass = _inputs.culls || (bounce == 0 && _inputs.shadowless);
     if (!facesPass && !panes) return;
     for (LaneMask lanes = active;;)

@@ -34,6 +34,8 @@ enum PhotonDimension : uint32_t
 struct ChunkInputs
 {
     const TracedScene& traced;
+    const SceneTraits& traits; ///< of the scene, as its materials are
+    const MaterialTable& materials;
     const std::vector<Light>& lights;
     const PhotonEmitter& emitter;
     const PhotonGuide* photonGuide; ///< null: photons are guided by the scene alone
@@ -46,7 +48,7 @@ struct ChunkInputs
 /// Holds the photons of a chunk and what tracing them counted.
 struct PhotonChunk
 {
-    std::vector<Photon> photons;
+    PhotonBlocks photons;
     std::vector<PhotonBeam> beams;
     std::vector<PhotonPoint> points;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
@@ -62,7 +64,7 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk)
-        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traced.traits().media)
+        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traits.media)
     {
     }
 
@@ -130,7 +132,7 @@ private:
     const Bsdf* bsdfInBodies(const PhotonPathBlock& block, const SurfaceLanes& surface, int i);
     uint32_t edgesAt(const PhotonPathBlock& block, int i, int bounce) const
     {
-        if (!_inputs.traced.traits().media) return static_cast<uint32_t>(bounce) + 1;
+        if (!_inputs.traits.media) return static_cast<uint32_t>(bounce) + 1;
         return static_cast<uint32_t>(block.met[i] + 1) + block.late[i];
     }
 

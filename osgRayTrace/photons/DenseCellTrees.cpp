@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/DenseCellTrees.h"
 
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/photons/PhotonBlocks.h"
 #include "osgRayTrace/photons/PhotonColumns.h"
 
 #include <algorithm>
@@ -72,7 +73,7 @@ double squared(double x)
 
 } // namespace
 
-void sortDenseCell(const std::vector<Photon>& photons, std::vector<uint32_t>& denseCell)
+void sortDenseCell(const PhotonSpans& photons, std::vector<uint32_t>& denseCell)
 {
     Vec3 low(kInfinity), high(-kInfinity);
     for (const uint32_t k : denseCell)

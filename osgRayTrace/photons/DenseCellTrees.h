@@ -12,17 +12,17 @@ namespace osgRayTrace::engine
 {
 
 class Workers;
-struct Photon;
+class PhotonSpans;
 struct PhotonColumns;
 struct PhotonQuery;
 
 /// Cells with more photons than this are dense.
 constexpr uint32_t kDenseCell = 2048;
 
-/// Sorts the photons of a dense cell, by index into photons, so that photons near each other follow
+/// Sorts the photons of a dense cell, by place in photons, so that photons near each other follow
 /// each other: by the side that their surface faces, then along a Z curve. Photons at equal places
 /// keep their order.
-void sortDenseCell(const std::vector<Photon>& photons, std::vector<uint32_t>& denseCell);
+void sortDenseCell(const PhotonSpans& photons, std::vector<uint32_t>& denseCell);
 
 /// Holds trees of boxes over sorted dense cells. The trees are immutable once built; thread safe.
 class DenseCellTrees

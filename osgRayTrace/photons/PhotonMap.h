@@ -6,7 +6,7 @@
 #include "osgRayTrace/base/LargeArray.h"
 #include "osgRayTrace/base/Math.h"
 #include "osgRayTrace/photons/DenseCellTrees.h"
-#include "osgRayTrace/photons/Photon.h"
+#include "osgRayTrace/photons/PhotonBlocks.h"
 
 #include <cstdint>
 #include <vector>
@@ -42,7 +42,7 @@ public:
     /// cellSize: twice the radius of most queries is fastest; results are right with any size. The
     /// sort is stable: photons of a cell keep the order of the list, so results do not depend on
     /// threads. keepBins: photon() is to return Photon::bin, too.
-    PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
+    PhotonMap(const PhotonSpans& photons, float cellSize, const Workers& workers,
               bool keepBins = false);
 
     std::size_t size() const { return _count; }
@@ -103,7 +103,7 @@ private:
 
     // These functions are the sort by cell and its steps, in PhotonMapBuild.cpp.
     struct Sorting;
-    void sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins);
+    void sort(const PhotonSpans& photons, const Workers& workers, bool keepBins);
     void findBuckets(Sorting& s, const Workers& workers) const;
     static void orderByPart(Sorting& s, const Workers& workers);
     std::vector<Range> sortPart(Sorting& s, std::size_t part);

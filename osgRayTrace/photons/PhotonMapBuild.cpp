@@ -21,15 +21,17 @@ constexpr int kParts = 256;
 /// Photons between the one that moves and the one that is prefetched.
 constexpr std::ptrdiff_t kAhead = 16;
 
-/// Shares of the photons that one thread works on at a time.
+/// Shares of the spans that one thread works on at a time, of 4096 photons at least.
 struct Chunks
 {
-    explicit Chunks(std::size_t photons)
-        : total(photons), count(std::min<std::size_t>(64, (photons + 4095) / 4096))
+    explicit Chunks(const PhotonSpans& photons)
+        : total(photons.spans()),
+          count(std::min<std::size_t>(64, (total + kLeastSpans - 1) / kLeastSpans))
     {
     }
     std::size_t begin(std::size_t chunk) const { return total * chunk / count; }
 
+    static constexpr std::size_t kLeastSpans = 4096 / kSpanPhotons;
     std::size_t total, count;
 };
 
@@ -39,19 +41,20 @@ struct Bounds
     Vec3 high{-kInfinity};
 };
 
-Bounds boundsOf(const std::vector<Photon>& photons, const Workers& workers)
+Bounds boundsOf(const PhotonSpans& photons, const Workers& workers)
 {
-    const Chunks chunks(photons.size());
+    const Chunks chunks(photons);
     std::vector<Bounds> bounds(chunks.count);
     workers.forEach(chunks.count,
                     [&](std::size_t c)
                     {
                         Bounds b;
-                        for (std::size_t k = chunks.begin(c); k < chunks.begin(c + 1); ++k)
-                        {
-                            b.low = glm::min(b.low, photons[k].position);
-                            b.high = glm::max(b.high, photons[k].position);
-                        }
+                        for (std::size_t s = chunks.begin(c); s < chunks.begin(c + 1); ++s)
+                            for (const Photon& photon : photons.span(s))
+                            {
+                                b.low = glm::min(b.low, photon.position);
+                                b.high = glm::max(b.high, photon.position);
+                            }
                         bounds[c] = b;
                     });
     Bounds all;
@@ -72,12 +75,12 @@ OSGRAYTRACE_INLINE void prefetch(const void* address, std::size_t bytes)
 /// A photon to be moved to its bucket.
 struct Entry
 {
-    uint32_t bucket, photon;
+    uint32_t bucket, photon; ///< photon: its place in the list
 };
 
 /// Reorders the entries of each dense bucket among themselves. held: number of photons of each
 /// bucket.
-void sortDenseCells(const std::vector<Photon>& photons, const std::vector<uint32_t>& held,
+void sortDenseCells(const PhotonSpans& photons, const std::vector<uint32_t>& held,
                     std::size_t bucketBegin, Entry* begin, Entry* end)
 {
     std::unordered_map<uint32_t, std::vector<uint32_t>> denseCells;
@@ -101,11 +104,11 @@ void sortDenseCells(const std::vector<Photon>& photons, const std::vector<uint32
 
 } // namespace
 
-PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const Workers& workers,
+PhotonMap::PhotonMap(const PhotonSpans& photons, float cellSize, const Workers& workers,
                      bool keepBins)
     : _count(photons.size())
 {
-    if (photons.empty()) return;
+    if (_count == 0) return;
     const Bounds bounds = boundsOf(photons, workers);
     _low = Vec3d(bounds.low);
     _high = Vec3d(bounds.high);
@@ -124,12 +127,12 @@ PhotonMap::PhotonMap(const std::vector<Photon>& photons, float cellSize, const W
 /// Holds what each step of the sort hands to the next.
 struct PhotonMap::Sorting
 {
-    Sorting(const std::vector<Photon>& p, std::size_t bucketCount)
+    Sorting(const PhotonSpans& p, std::size_t bucketCount)
         : photons(p),
-          chunks(p.size()),
+          chunks(p),
           buckets(bucketCount),
           partShift(shiftOf(bucketCount)),
-          bucket(p.size()),
+          bucket(p.places()),
           offsets(chunks.count * kParts),
           partBegin(kParts + 1),
           entries(p.size())
@@ -145,11 +148,11 @@ struct PhotonMap::Sorting
         return shift;
     }
 
-    const std::vector<Photon>& photons;
+    const PhotonSpans& photons;
     Chunks chunks;
     std::size_t buckets;
     int partShift;                   ///< a bucket's part is the bucket shifted right by this
-    UnclearedArray<uint32_t> bucket; ///< of each photon
+    UnclearedArray<uint32_t> bucket; ///< of each photon, by place
     std::vector<uint32_t> offsets;   ///< chunk, part: its photons, then where its entries go
     std::vector<uint32_t> partBegin; ///< first entry of each part, and the end of the last
     UnclearedArray<Entry> entries;   ///< part by part
@@ -164,11 +167,15 @@ void PhotonMap::findBuckets(Sorting& s, const Workers& workers) const
                         uint32_t counts[kParts] = {};
                         for (std::size_t k = s.chunks.begin(c); k < s.chunks.begin(c + 1); ++k)
                         {
-                            const Vec3d at = (Vec3d(s.photons[k].position) - _low) * _cellsPerUnit;
-                            s.bucket[k] =
-                                bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
-                                         static_cast<int64_t>(at.z));
-                            ++counts[s.bucket[k] >> s.partShift];
+                            uint32_t* bucket = &s.bucket[k * kSpanPhotons];
+                            for (const Photon& photon : s.photons.span(k))
+                            {
+                                const Vec3d at = (Vec3d(photon.position) - _low) * _cellsPerUnit;
+                                *bucket =
+                                    bucketOf(static_cast<int64_t>(at.x), static_cast<int64_t>(at.y),
+                                             static_cast<int64_t>(at.z));
+                                ++counts[*bucket++ >> s.partShift];
+                            }
                         }
                         std::copy(counts, counts + kParts, &s.offsets[c * kParts]);
                     });
@@ -195,9 +202,14 @@ void PhotonMap::orderByPart(Sorting& s, const Workers& workers)
                     {
                         uint32_t next[kParts];
                         std::copy_n(&s.offsets[c * kParts], kParts, next);
-                        for (std::size_t k = s.chunks.begin(c); k < s.chunks.begin(c + 1); ++k)
-                            s.entries[next[s.bucket[k] >> s.partShift]++] = {
-                                s.bucket[k], static_cast<uint32_t>(k)};
+                        for (std::size_t span = s.chunks.begin(c); span < s.chunks.begin(c + 1);
+                             ++span)
+                        {
+                            const auto first = static_cast<uint32_t>(span * kSpanPhotons);
+                            const uint32_t end = first + s.photons.span(span).count;
+                            for (uint32_t k = first; k < end; ++k)
+                                s.entries[next[s.bucket[k] >> s.partShift]++] = {s.bucket[k], k};
+                        }
                     });
 }
 
@@ -245,7 +257,7 @@ OSGRAYTRACE_INLINE void PhotonMap::store(const Photon& p, uint32_t to)
     if (_bin.size()) _bin[to] = p.bin;
 }
 
-void PhotonMap::sort(const std::vector<Photon>& photons, const Workers& workers, bool keepBins)
+void PhotonMap::sort(const PhotonSpans& photons, const Workers& workers, bool keepBins)
 {
     Sorting s(photons, static_cast<std::size_t>(_mask) + 1);
     findBuckets(s, workers);

@@ -36,15 +36,19 @@ bool samePlaces(const std::vector<Light>& a, const std::vector<Light>& b)
 /// reads a fifth of the memory.
 struct Positions
 {
-    template <class T>
-    explicit Positions(const std::vector<T>& photons)
-        : x(photons.size()), y(photons.size()), z(photons.size())
+    template <class T> explicit Positions(const std::vector<T>& photons) { add(photons); }
+    explicit Positions(const PhotonBlocks& photons)
     {
-        for (std::size_t k = 0; k < photons.size(); ++k)
+        for (const PhotonSpan& span : photons.spans())
+            add(span);
+    }
+    template <class List> void add(const List& photons)
+    {
+        for (const auto& photon : photons)
         {
-            x[k] = photons[k].position.x;
-            y[k] = photons[k].position.y;
-            z[k] = photons[k].position.z;
+            x.push_back(photon.position.x);
+            y.push_back(photon.position.y);
+            z.push_back(photon.position.z);
         }
     }
     std::vector<float> x, y, z;
@@ -80,7 +84,7 @@ float distance2ToNeighbour(const Positions& p, std::size_t chosen, std::size_t n
     return nearest.front();
 }
 
-template <class T> float densityRadius(const std::vector<T>& photons, const Workers& workers)
+template <class List> float densityRadius(const List& photons, const Workers& workers)
 {
     if (photons.size() < 2) return 0.0f;
     constexpr std::size_t kSamples = 128;
@@ -193,7 +197,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
         photons = trace(index, photonGuide.get(), workers);
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
-    pass->map = PhotonMap(photons.photons, cellSize, workers,
+    pass->map = PhotonMap(photons.photons.spans(), cellSize, workers,
                           scene.options.photonGuiding && index < kFirst);
     pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
     pass->volume.points = PointMap(photons.points);
@@ -210,7 +214,7 @@ TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, con
 {
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
     TracedPhotons photons = tracePhotons(*_scene.traced, *_scene.lights, *_emitter, _scene.options,
-                                         index, workers, photonGuide);
+                                         index, workers, _memory, photonGuide);
     _tracedRays += photons.rays;
     if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
     return photons;

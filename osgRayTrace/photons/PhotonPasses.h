@@ -127,6 +127,7 @@ private:
     PhotonScene _scene;         ///< of all photons below; its lights are the scene's own or _placed
     std::vector<Light> _placed; ///< a copy of the lights unless they are the scene's own
     std::unique_ptr<PhotonEmitter> _emitter; ///< null: there is no scene yet
+    PhotonMemory _memory;                    ///< of the photons of _first, and of a pass's
     std::unique_ptr<TracedPhotons> _first;   ///< traced by density(), for the first pass
     std::unique_ptr<PhotonDensity> _density;
     std::vector<Entry> _kept;                           ///< oldest first

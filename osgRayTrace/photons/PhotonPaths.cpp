@@ -24,22 +24,35 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
 
 void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
 {
+    // Stores to blocks might change members, for all that compilers know.
+    PhotonPathBlock* const blocks = _blocks.data();
+    uint32_t count = _count;
     for (const int from : lanesIn(lanes))
     {
-        PhotonPathBlock& block = _blocks[_count / kLanes];
-        const int to = static_cast<int>(_count % kLanes);
-        ++_count;
-        setLane(block.origin, to, laneOf(paths.origin, from));
-        setLane(block.direction, to, laneOf(paths.direction, from));
-        setLane(block.power, to, laneOf(paths.power, from));
+        PhotonPathBlock& block = blocks[count / kLanes];
+        const int to = static_cast<int>(count % kLanes);
+        ++count;
+        setLane(block.origin, to, plainOf(paths.origin, from));
+        setLane(block.direction, to, plainOf(paths.direction, from));
+        setLane(block.power, to, plainOf(paths.power, from));
         block.photon[to] = paths.photon[from];
         block.light[to] = paths.light[from];
         block.direct[to] = paths.direct[from];
-        if (!_media) continue;
-        block.bodies[to] = paths.bodies[from];
-        block.met[to] = paths.met[from];
-        block.late[to] = paths.late[from];
     }
+    if (_media)
+    {
+        count = _count;
+        for (const int from : lanesIn(lanes))
+        {
+            PhotonPathBlock& block = blocks[count / kLanes];
+            const int to = static_cast<int>(count % kLanes);
+            ++count;
+            block.bodies[to] = paths.bodies[from];
+            block.met[to] = paths.met[from];
+            block.late[to] = paths.late[from];
+        }
+    }
+    _count = count;
 }
 
 void readyRays(RayHitBlock& rays)

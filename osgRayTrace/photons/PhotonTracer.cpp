@@ -46,19 +46,19 @@ namespace osgRayTrace::engine
 void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
 {
     SurfaceLanes surface;
-    const bool media = _inputs.traced.traits().media;
+    const bool media = _inputs.traits.media;
     if (media)
         travel(block, active, bounce, surface);
     else
         findSurfaces(block, active, bounce, surface);
-    if (_inputs.traced.traits().attenuation && !media) absorb(block, surface);
+    if (_inputs.traits.attenuation && !media) absorb(block, surface);
     if (bounce == 0) leaveLight(block, surface);
     const LaneMask stores = classify(block, surface) & ~(_oneSided & ~_seen);
     if (bounce > 0 || _collided)
         store(block, surface, bounce > 0 ? stores : stores & _collided, bounce);
     if (!media && bounce + 2 > _inputs.options.maxBounces)
         return; // the next surface would be too far for any eye
-    if (_inputs.traced.traits().subsurface) walkBelowSurfaces(block, surface, bounce);
+    if (_inputs.traits.subsurface) walkBelowSurfaces(block, surface, bounce);
     scatter(block, surface, bounce);
 }
 
@@ -81,7 +81,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     block.origin = starts.origin;
     block.direction = starts.direction;
     block.light = starts.light;
-    if (_inputs.traced.traits().media)
+    if (_inputs.traits.media)
         for (int i = 0; i < kLanes; ++i)
         {
             const bool used = (lanes >> i) & 1u;
@@ -104,7 +104,6 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
 void ChunkTracer::trace(uint32_t first, uint32_t count)
 {
     _first = first;
-    _chunk.photons.reserve(2 * count); // more than most passes store of each
     _chunk.bins.assign(count, kInvalid);
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
@@ -121,19 +120,10 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     }
 }
 
-/// Lets all threads touch the pages of memory that the list has reserved. The system clears a page
-/// when it is first written, and for one thread that is more work than the rest of the list.
-static void touchReserved(std::vector<Photon>& photons, const Workers& workers)
-{
-    constexpr std::size_t kPage = 4096;
-    auto* const bytes = reinterpret_cast<volatile char*>(photons.data());
-    workers.forEach(photons.capacity() * sizeof(Photon) / kPage,
-                    [&](std::size_t page) { bytes[page * kPage] = 0; });
-}
-
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers, const PhotonGuide* photonGuide)
+                           const Workers& workers, PhotonMemory& memory,
+                           const PhotonGuide* photonGuide)
 {
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
@@ -147,6 +137,8 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
     const auto culls = [](const Material& material) { return material.cullsAllRays; };
     const auto isShadowless = [](const Light& light) { return !light.castsShadows; };
     const ChunkInputs inputs{traced,
+                             traced.traits(),
+                             traced.materials(),
                              lights,
                              emitter,
                              photonGuide,
@@ -160,36 +152,26 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                     {
                         const uint32_t first = static_cast<uint32_t>(c) * kPhotonChunk;
                         PhotonChunk chunk; // neighbours of the list share cache lines
+                        chunk.photons = PhotonBlocks(memory);
                         ChunkTracer(inputs, chunk)
                             .trace(first, std::min(kPhotonChunk, options.photons - first));
                         chunks[c] = std::move(chunk);
                     });
     result.emitted.assign(emitter.guideBins(), 0u);
+    result.photons = PhotonBlocks(memory);
     for (PhotonChunk& chunk : chunks)
     {
+        result.photons.append(std::move(chunk.photons));
         result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
         result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
         result.cutWalks += chunk.cutWalks;
         result.openWalks += chunk.openWalks;
-    }
-    std::vector<std::size_t> begin(count + 1);
-    for (std::size_t c = 0; c < count; ++c)
-    {
-        begin[c + 1] = begin[c] + chunks[c].photons.size();
-        result.rays += chunks[c].rays;
-        result.dropped += chunks[c].dropped;
-        for (const uint32_t bin : chunks[c].bins)
+        result.rays += chunk.rays;
+        result.dropped += chunk.dropped;
+        if (result.emitted.empty()) continue;
+        for (const uint32_t bin : chunk.bins)
             if (bin != kInvalid) ++result.emitted[bin];
     }
-    result.photons.reserve(begin[count]);
-    touchReserved(result.photons, workers);
-    result.photons.resize(begin[count]);
-    workers.forEach(count,
-                    [&](std::size_t c)
-                    {
-                        std::copy(chunks[c].photons.begin(), chunks[c].photons.end(),
-                                  result.photons.begin() + static_cast<std::ptrdiff_t>(begin[c]));
-                    });
     return result;
 }
 

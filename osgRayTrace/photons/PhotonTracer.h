@@ -15,9 +15,10 @@ namespace osgRayTrace::engine
 class Workers;
 
 /// Traces the photons of pass number pass, which are the same for any number of threads.
-/// photonGuide: null, or one that the emitter has learnt.
+/// memory: outlives the result. photonGuide: null, or one that the emitter has learnt.
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers, const PhotonGuide* photonGuide = nullptr);
+                           const Workers& workers, PhotonMemory& memory,
+                           const PhotonGuide* photonGuide = nullptr);
 
 } // namespace osgRayTrace::engine

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/photons/BeamMap.h"
-#include "osgRayTrace/photons/Photon.h"
+#include "osgRayTrace/photons/PhotonBlocks.h"
 #include "osgRayTrace/photons/PhotonUse.h"
 #include "osgRayTrace/photons/PointMap.h"
 
@@ -31,7 +31,7 @@ inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
 
 struct TracedPhotons
 {
-    std::vector<Photon> photons;
+    PhotonBlocks photons;
     std::vector<PhotonBeam> beams;   ///< of the first photons, in media that are not dense
     std::vector<PhotonPoint> points; ///< in dense media
     uint64_t rays = 0;

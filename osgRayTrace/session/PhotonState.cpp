@@ -266,24 +266,31 @@ double PhotonState::secondsOf(int pass) const
 // that still take discs are biased in later passes, too. Bias is taken to go with the radius,
 // between its square for smooth light and its root at a fold caustic; means of the radius over n
 // passes go with n^((alpha - 1) / 2) [Knaus11].
-FootprintBiases PhotonState::footprintBiases(int passes) const
+FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers) const
 {
     const std::size_t count = _planes.size() / kTilePixels;
     FootprintBiases biases{std::vector<FootprintBias>(count), std::vector<FootprintBias>(count)};
     const double choosing = std::min(passes, kChoosingPasses);
     const double all = std::pow(choosing / passes, 0.5 - 0.5 * static_cast<double>(_alpha));
     const double later = std::sqrt(std::max(0.0, all * all - std::pow(choosing / passes, 2.0)));
-    for (std::size_t p = 0; p < _planes.size(); ++p)
+    const auto addTile = [&](std::size_t tile)
     {
-        const SeenPlane& known = _planes[p];
-        if (known.compared == 0) continue;
-        const double sum = static_cast<double>(known.difference);
-        const double squares = static_cast<double>(known.squares);
-        const double share = static_cast<double>(known.undecided + known.compared) / passes;
-        biases.compared[p / kTilePixels].addPixel(known.compared, sum, squares, share);
-        if (known.lookup != PixelLookup::Footprint)
-            biases.later[p / kTilePixels].addPixel(known.compared, sum, squares, later);
-    }
+        FootprintBias compared, discs; // neighbours of the lists share cache lines
+        for (std::size_t p = tile * kTilePixels; p < (tile + 1) * kTilePixels; ++p)
+        {
+            const SeenPlane& known = _planes[p];
+            if (known.compared == 0) continue;
+            const double sum = static_cast<double>(known.difference);
+            const double squares = static_cast<double>(known.squares);
+            const double share = static_cast<double>(known.undecided + known.compared) / passes;
+            compared.addPixel(known.compared, sum, squares, share);
+            if (known.lookup != PixelLookup::Footprint)
+                discs.addPixel(known.compared, sum, squares, later);
+        }
+        biases.compared[tile] = compared;
+        biases.later[tile] = discs;
+    };
+    workers.forEach(count, addTile);
     return biases;
 }
 

@@ -81,7 +81,7 @@ public:
 
     /// Returns by tile what pixels have learnt about the bias of their discs, for the mean of so
     /// many passes from the first one on; empty if no pixels compare discs with footprints.
-    FootprintBiases footprintBiases(int passes) const;
+    FootprintBiases footprintBiases(int passes, const Workers& workers) const;
 
     /// Returns the tile's hit points for the half of the film that the pass belongs to, if passes
     /// share camera paths, as those of Ppm do; otherwise null. A tile drops its hit points if they

@@ -41,7 +41,7 @@ ErrorEstimate SessionState::estimateError() const
     const bool whole = filmPasses == PassSet(passes) && ownPasses == passes;
     if (!whole) return engine::estimateError(film, *workers, {});
     return engine::estimateError(film, *workers, photons.discDifferences(),
-                                 photons.footprintBiases(passes));
+                                 photons.footprintBiases(passes, *workers));
 }
 
 /// Writes the image to the display. If over is true, tiles without a pass are left as they are.

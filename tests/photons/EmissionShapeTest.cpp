@@ -200,12 +200,13 @@ Landed landed(const Light& light, float guidedShare)
     options.maxBounces = 16;
     Landed result;
     const Workers workers(1);
+    PhotonMemory memory;
     for (int pass = 0; pass < 16; ++pass)
     {
         const TracedPhotons traced1 =
-            tracePhotons(*traced, traced->scene().lights, emitter, options, pass, workers);
+            tracePhotons(*traced, traced->scene().lights, emitter, options, pass, workers, memory);
         double all = 0.0, disc = 0.0;
-        for (const Photon& p : traced1.photons)
+        for (const Photon& p : listOf(traced1.photons.spans()))
         {
             const Vec3 far = glm::abs(p.position);
             const bool wall = std::max(far.x, std::max(far.y, far.z)) > 1.99f;

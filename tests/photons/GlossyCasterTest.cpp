@@ -237,10 +237,11 @@ TEST_CASE("photons: glossy surfaces keep those that mirrors alone have sent", "[
     {
         options.use = use;
         const PhotonEmitter emitter(*traced, traced->scene().lights, 0.5f);
+        PhotonMemory memory;
         const TracedPhotons traces =
-            tracePhotons(*traced, traced->scene().lights, emitter, options, 0, Workers(2));
+            tracePhotons(*traced, traced->scene().lights, emitter, options, 0, Workers(2), memory);
         std::size_t mirrored = 0, others = 0, onFloor = 0;
-        for (const Photon& photon : traces.photons)
+        for (const Photon& photon : listOf(traces.photons.spans()))
         {
             const bool onPlate = photon.position.x > plate - 1e-3f && photon.normal.z < 0.5f;
             mirrored += onPlate && photon.direct;

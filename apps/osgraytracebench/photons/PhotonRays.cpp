@@ -36,8 +36,9 @@ void measureTracing(const std::string& name, CornellKind kind, PhotonUse use,
     PhotonPassOptions options;
     options.use = use;
     options.photons = 1u + static_cast<uint32_t>(benchOptions.photons) / 4;
+    PhotonMemory memory; // passes share it, as those of a scene do
     const auto trace = [&](const Workers& workers)
-    { return tracePhotons(*prepared.traced, lights, emitter, options, 1, workers); };
+    { return tracePhotons(*prepared.traced, lights, emitter, options, 1, workers, memory); };
 
     RecordedRays recorded;
     {
