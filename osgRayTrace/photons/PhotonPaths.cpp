@@ -26,6 +26,7 @@ void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
 {
     for (const int from : lanesIn(lanes))
     {
+        if (_count / kLanes >= _blocks.size()) grow();
         PhotonPathBlock& block = _blocks[_count / kLanes];
         const int to = static_cast<int>(_count % kLanes);
         ++_count;
@@ -40,6 +41,13 @@ void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
         block.met[to] = paths.met[from];
         block.late[to] = paths.late[from];
     }
+}
+
+void PhotonPathQueue::grow()
+{
+    UnclearedArray<PhotonPathBlock> larger(std::max<std::size_t>(8, 2 * _blocks.size()));
+    std::copy_n(_blocks.data(), _blocks.size(), larger.data());
+    _blocks = std::move(larger);
 }
 
 void readyRays(RayHitBlock& rays)

@@ -12,12 +12,15 @@
 namespace osgRayTrace::engine
 {
 
+class PhotonOpenings;
 class Workers;
 
 /// Traces the photons of pass number pass, which are the same for any number of threads.
-/// photonGuide: null, or one that the emitter has learnt.
+/// photonGuide: null, or one that the emitter has learnt. openings: null, or those that photons are
+/// sent through. recordsFlights: whether the flights of all photons are wanted.
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
-                           const Workers& workers, const PhotonGuide* photonGuide = nullptr);
+                           const Workers& workers, const PhotonGuide* photonGuide = nullptr,
+                           const PhotonOpenings* openings = nullptr, bool recordsFlights = false);
 
 } // namespace osgRayTrace::engine
