@@ -149,6 +149,7 @@ void PhotonPasses::begin(const PhotonScene& scene)
     _seen.clear();
     _photonGuide.reset();
     _points.clear();
+    _fewFlights.clear();
     _flights.clear();
     _openings.reset();
     _lookedForOpenings = false;
@@ -264,18 +265,14 @@ std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const 
     const auto traceFlights = [&](uint32_t photons, int number)
     {
         options.photons = photons;
-        TracedPhotons traced = tracePhotons(*_scene.traced, *_scene.lights, *_emitter, options,
-                                            -number, workers, nullptr, nullptr, true);
-        _tracedRays += traced.rays;
-        return std::move(traced.flights);
+        return tracePhotons(*_scene.traced, *_scene.lights, *_emitter, options, -number, workers,
+                            nullptr, nullptr, true)
+            .flights;
     };
     const uint32_t many = std::min(2 * _scene.options.photons, kMostPilots);
-    if (_flights.empty())
-    {
-        const uint32_t few = std::max(many / 64, 1u);
-        if (seenShare(sphere, traceFlights(few, 1), seen) > kMostSeenShare) return nullptr;
-        _flights = traceFlights(many, 2);
-    }
+    if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1);
+    if (seenShare(sphere, _fewFlights, seen) > kMostSeenShare) return nullptr;
+    if (_flights.empty()) _flights = traceFlights(many, 2);
     return _openings = findOpenings(sphere, _flights, seen, many);
 }
 

@@ -152,7 +152,9 @@ private:
     std::vector<Seen> _seen;                            ///< in the order of recording
     std::shared_ptr<const PhotonGuide> _photonGuide;    ///< learnt from _seen; null: not yet
     std::vector<SeenPoints> _points;                    ///< in the order of recording
-    std::vector<PhotonFlight> _flights;              ///< of photons that openings are learnt from
+    /// Flights from which openings are learnt: a few, which tell whether it is worth while, and
+    /// all.
+    std::vector<PhotonFlight> _fewFlights, _flights;
     std::shared_ptr<const PhotonOpenings> _openings; ///< null: none
     bool _lookedForOpenings = false;
     uint64_t _tracedRays = 0;
