@@ -236,8 +236,9 @@ const std::vector<OptionRow>& optionTable()
         choiceRow("radius-schedule", kRadiusScheduleWords, &S::getRadiusSchedule,
                   &S::setRadiusSchedule,
                   "Radii shrink by the number of the pass, or by the photons of each pixel"),
-        switchRow("photon-guiding", &S::getPhotonGuiding, &S::setPhotonGuiding,
-                  "Photons for metal and glass go where the views see their light"),
+        switchRow(
+            "photon-guiding", &S::getPhotonGuiding, &S::setPhotonGuiding,
+            "Photons go where views see their light: to metal and glass, through small openings"),
         choiceRow("denoise", kDenoiseWords, &S::getDenoise, &S::setDenoise,
                   "Takes out the noise of few passes; oidn: by Open Image Denoise, where that is "
                   "built in"),

@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/media/GridRay.h"
 #include "osgRayTrace/photons/PhotonEmitter.h"
+#include "osgRayTrace/photons/PhotonOpenings.h"
 #include "osgRayTrace/photons/PhotonPaths.h"
 #include "osgRayTrace/photons/TracedPhotons.h"
 #include "osgRayTrace/sampling/Sampler.h"
@@ -39,7 +40,9 @@ struct ChunkInputs
     const std::vector<Light>& lights;
     const PhotonEmitter& emitter;
     const PhotonGuide* photonGuide; ///< null: photons are guided by the scene alone
+    const PhotonOpenings* openings; ///< null: there are none
     const PhotonPassOptions& options;
+    bool recordsFlights;
     uint32_t seed;   ///< of the pass
     bool culls;      ///< there are faces of which all rays pass one side
     bool shadowless; ///< there are lights without shadows
@@ -51,6 +54,7 @@ struct PhotonChunk
     PhotonBlocks photons;
     std::vector<PhotonBeam> beams;
     std::vector<PhotonPoint> points;
+    std::vector<PhotonFlight> flights;
     std::vector<uint32_t> bins; ///< of PhotonGuide, for each photon that was emitted
     uint64_t rays = 0;
     uint64_t dropped = 0;
@@ -64,7 +68,11 @@ class ChunkTracer
 {
 public:
     ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk)
-        : _inputs(inputs), _chunk(chunk), _paths(kPhotonChunk, inputs.traits.media)
+        : _inputs(inputs),
+          _chunk(chunk),
+          _paths(kPhotonChunk, inputs.traits.media),
+          _sent(0, false),
+          _arriving(0, false)
     {
     }
 
@@ -149,7 +157,10 @@ private:
     void leaveBodies(PhotonPathBlock& block, const BodyWalks& walks, LaneMask lanes,
                      SurfaceLanes& surface);
 
+    void recordFlights(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask stored);
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
+    LaneMask sendThroughOpenings(const PhotonPathBlock& block, const SurfaceLanes& surface,
+                                 int bounce);
     void scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
                     bool mustMirror);
     MaterialPoint pointAt(const SurfaceLanes& surface, int i) const;
@@ -159,6 +170,8 @@ private:
     PhotonChunk& _chunk;
     uint32_t _first = 0; ///< number of the chunk's first photon within the pass
     PhotonPathQueue _paths;
+    PhotonPathQueue _sent, _arriving; ///< photons sent through openings, and those sent before
+    PhotonOpenings::Views _views;
     // These members describe the block at work.
     RayHitBlock _rays;
     FloatLanes _u, _v, _lobe, _roulette; ///< random numbers of the block's bounce

@@ -3,6 +3,7 @@
 #include "osgRayTrace/photons/PhotonPasses.h"
 
 #include "osgRayTrace/base/Parallel.h"
+#include "osgRayTrace/photons/OpeningFinder.h"
 #include "osgRayTrace/sampling/Hash.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -20,6 +21,13 @@ namespace
 // Share of the photons that are guided; the rest keeps all light within the mixture.
 constexpr float kGuidedCaustics = 0.9f;
 constexpr float kGuidedIndirect = 0.25f;
+
+/// Most photons from which openings are learnt.
+constexpr uint32_t kMostPilots = 1u << 17;
+
+/// Nothing is learnt about openings if views see more than this share of the places at which
+/// photons end: then no small opening is between the lights and what views see.
+constexpr double kMostSeenShare = 0.2;
 
 /// Returns whether lights are at the same places. Only lights in eye space move without a new
 /// scene: with the view.
@@ -145,6 +153,11 @@ void PhotonPasses::begin(const PhotonScene& scene)
     _emitted = {};
     _seen.clear();
     _photonGuide.reset();
+    _points.clear();
+    _fewFlights.clear();
+    _flights.clear();
+    _openings.reset();
+    _lookedForOpenings = false;
     // The scene's own lights stay where they are while the scene is held; there may be millions.
     const bool sceneOwns = scene.lights == &scene.traced->scene().lights;
     _placed = sceneOwns ? std::vector<Light>() : *scene.lights;
@@ -161,7 +174,7 @@ PhotonDensity PhotonPasses::density(const PhotonScene& scene, const Workers& wor
     std::lock_guard<CheckedMutex> lock(_mutex);
     begin(scene);
     if (_density) return *_density;
-    _first = std::make_unique<TracedPhotons>(trace(0, nullptr, workers));
+    _first = std::make_unique<TracedPhotons>(trace(0, nullptr, nullptr, workers));
     _density = std::make_unique<PhotonDensity>();
     _density->radius = densityRadius(_first->photons, workers);
     const Sphere& sphere = _emitter->scene();
@@ -185,8 +198,10 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     std::lock_guard<CheckedMutex> lock(_mutex);
     begin(scene);
     const std::shared_ptr<const PhotonGuide> photonGuide = guideOf(index);
+    const std::shared_ptr<const PhotonOpenings> openings = openingsOf(index, workers);
     for (const Entry& entry : _kept)
-        if (entry.index == index && entry.cellSize == cellSize && entry.photonGuide == photonGuide)
+        if (entry.index == index && entry.cellSize == cellSize &&
+            entry.photonGuide == photonGuide && entry.openings == openings)
             return entry.pass;
 
     const auto start = std::chrono::steady_clock::now();
@@ -194,7 +209,7 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     if (index == 0 && _first)
         photons = std::move(*_first);
     else
-        photons = trace(index, photonGuide.get(), workers);
+        photons = trace(index, photonGuide.get(), openings.get(), workers);
     _first.reset();
     auto pass = std::make_shared<PhotonPass>();
     pass->map = PhotonMap(photons.photons.spans(), cellSize, workers,
@@ -203,18 +218,20 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     pass->volume.points = PointMap(photons.points);
     pass->cutWalks = photons.cutWalks;
     pass->openWalks = photons.openWalks;
+    pass->hasOpenings = openings != nullptr;
     pass->rays = photons.rays;
     pass->dropped = photons.dropped;
     pass->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    keep({index, cellSize, photonGuide, pass});
+    keep({index, cellSize, photonGuide, openings, pass});
     return pass;
 }
 
-TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide, const Workers& workers)
+TracedPhotons PhotonPasses::trace(int index, const PhotonGuide* photonGuide,
+                                  const PhotonOpenings* openings, const Workers& workers)
 {
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
     TracedPhotons photons = tracePhotons(*_scene.traced, *_scene.lights, *_emitter, _scene.options,
-                                         index, workers, _memory, photonGuide);
+                                         index, workers, _memory, photonGuide, openings);
     _tracedRays += photons.rays;
     if (index < kFirst) _emitted[static_cast<std::size_t>(index)] = photons.emitted;
     return photons;
@@ -237,6 +254,33 @@ std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
     return _photonGuide = _emitter->learn(emitted, squares);
 }
 
+/// Returns the openings that photons of a pass are sent through; null: none.
+std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const Workers& workers)
+{
+    OSGRAYTRACE_ASSERT(_mutex.isHeld());
+    if (index < 1 || _points.empty()) return nullptr;
+    if (_lookedForOpenings) return _openings;
+    _lookedForOpenings = true;
+    std::vector<SeenPoint> seen;
+    for (const SeenPoints& points : _points)
+        seen.insert(seen.end(), points.points.begin(), points.points.end());
+    const Sphere& sphere = _emitter->scene();
+    // No pass has the random numbers of these photons, so all passes stay independent of them.
+    PhotonPassOptions options = _scene.options;
+    const auto traceFlights = [&](uint32_t photons, int number)
+    {
+        options.photons = photons;
+        return tracePhotons(*_scene.traced, *_scene.lights, *_emitter, options, -number, workers,
+                            _memory, nullptr, nullptr, true)
+            .flights;
+    };
+    const uint32_t many = std::min(2 * _scene.options.photons, kMostPilots);
+    if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1);
+    if (seenShare(sphere, _fewFlights, seen) > kMostSeenShare) return nullptr;
+    if (_flights.empty()) _flights = traceFlights(many, 2);
+    return _openings = findOpenings(sphere, _flights, seen, many);
+}
+
 ViewId PhotonPasses::newView()
 {
     return static_cast<ViewId>(++_views);
@@ -250,9 +294,27 @@ void PhotonPasses::recordSeen(const PhotonScene& scene, ViewId view, std::vector
     _photonGuide.reset();
 }
 
+void PhotonPasses::recordPoints(const PhotonScene& scene, ViewId view,
+                                std::vector<SeenPoint> points)
+{
+    std::lock_guard<CheckedMutex> lock(_mutex);
+    if (!_emitter || !samePhotons(scene, _scene) || points.empty()) return;
+    _points.push_back({view, std::move(points)});
+    _openings.reset();
+    _lookedForOpenings = false;
+}
+
 void PhotonPasses::forgetSeen(ViewId view)
 {
     std::lock_guard<CheckedMutex> lock(_mutex);
+    const auto left = std::remove_if(_points.begin(), _points.end(),
+                                     [&](const SeenPoints& s) { return s.view == view; });
+    if (left != _points.end())
+    {
+        _points.erase(left, _points.end());
+        _openings.reset();
+        _lookedForOpenings = false;
+    }
     const auto gone =
         std::remove_if(_seen.begin(), _seen.end(), [&](const Seen& s) { return s.view == view; });
     if (gone == _seen.end()) return;

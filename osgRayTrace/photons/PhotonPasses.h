@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/PhotonOpenings.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/photons/VolumePhotons.h"
 
@@ -40,9 +41,10 @@ struct PhotonPass
     VolumePhotons volume;
     uint64_t rays = 0;
     uint64_t dropped = 0;
-    uint64_t cutWalks = 0;  ///< photons that ended within a medium
-    uint64_t openWalks = 0; ///< walks below surfaces that have left their mesh
-    double seconds = 0.0;   ///< time to trace and to sort
+    uint64_t cutWalks = 0;    ///< photons that ended within a medium
+    uint64_t openWalks = 0;   ///< walks below surfaces that have left their mesh
+    double seconds = 0.0;     ///< time to trace and to sort
+    bool hasOpenings = false; ///< photons were sent through PhotonOpenings
 };
 
 constexpr int kDensityPhotons = 16;
@@ -71,6 +73,11 @@ struct PhotonDensity
 /// its guide comes from its own photons. So a later pass depends on the views and on their order:
 /// two processes trace the same photons from kFirst on only if they show the same views. Without
 /// photonGuiding they always do. A view that starts anew takes back what it recorded.
+///
+/// With photonGuiding and PhotonUse::Indirect, all passes but the first one are also sent through
+/// PhotonOpenings, if photons of their own tell that little of what views see is reached otherwise.
+/// What was said of the guide is true of openings, too: they depend on what views saw of the first
+/// pass.
 class PhotonPasses
 {
 public:
@@ -87,6 +94,9 @@ public:
     /// Records what a view saw of all of the first passes. squares: by bin, sums over some of the
     /// view's pixels of the squares of what single photons added to them.
     void recordSeen(const PhotonScene& scene, ViewId view, std::vector<double> squares);
+
+    /// Records points at which a view looked up photons in the first pass.
+    void recordPoints(const PhotonScene& scene, ViewId view, std::vector<SeenPoint> points);
 
     /// Takes back all that a view has recorded.
     void forgetSeen(ViewId view);
@@ -106,6 +116,7 @@ private:
         int index = -1;
         float cellSize = 0.0f;
         std::shared_ptr<const PhotonGuide> photonGuide;
+        std::shared_ptr<const PhotonOpenings> openings;
         std::shared_ptr<const PhotonPass> pass;
     };
     struct Seen
@@ -113,10 +124,17 @@ private:
         ViewId view;
         std::vector<double> squares; ///< by bin
     };
+    struct SeenPoints
+    {
+        ViewId view;
+        std::vector<SeenPoint> points;
+    };
     static constexpr int kLast = 4;
 
-    TracedPhotons trace(int index, const PhotonGuide* photonGuide, const Workers& workers);
+    TracedPhotons trace(int index, const PhotonGuide* photonGuide, const PhotonOpenings* openings,
+                        const Workers& workers);
     std::shared_ptr<const PhotonGuide> guideOf(int index);
+    std::shared_ptr<const PhotonOpenings> openingsOf(int index, const Workers& workers);
     void keep(Entry entry);
     std::size_t keptBytes() const;
 
@@ -134,6 +152,12 @@ private:
     std::array<std::vector<uint32_t>, kFirst> _emitted; ///< by pass: TracedPhotons::emitted
     std::vector<Seen> _seen;                            ///< in the order of recording
     std::shared_ptr<const PhotonGuide> _photonGuide;    ///< learnt from _seen; null: not yet
+    std::vector<SeenPoints> _points;                    ///< in the order of recording
+    /// Flights from which openings are learnt: a few, which tell whether it is worth while, and
+    /// all.
+    std::vector<PhotonFlight> _fewFlights, _flights;
+    std::shared_ptr<const PhotonOpenings> _openings; ///< null: none
+    bool _lookedForOpenings = false;
     uint64_t _tracedRays = 0;
 };
 

@@ -24,6 +24,9 @@ OSGRAYTRACE_INLINE float largestOf(float a, float b, float c)
 
 void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
 {
+    const auto wanted =
+        static_cast<std::size_t>(_count) + static_cast<std::size_t>(countLanes(lanes));
+    if (wanted > kLanes * _blocks.size()) grow();
     // Stores to blocks might change members, for all that compilers know.
     PhotonPathBlock* const blocks = _blocks.data();
     uint32_t count = _count;
@@ -53,6 +56,13 @@ void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
         }
     }
     _count = count;
+}
+
+void PhotonPathQueue::grow()
+{
+    UnclearedArray<PhotonPathBlock> larger(std::max<std::size_t>(8, 2 * _blocks.size()));
+    std::copy_n(_blocks.data(), _blocks.size(), larger.data());
+    _blocks = std::move(larger);
 }
 
 void readyRays(RayHitBlock& rays)

@@ -40,10 +40,12 @@ public:
 
     void clear() { _count = 0; }
 
-    /// Appends the paths of lanes.
+    /// Appends the paths of lanes, and takes more memory if there is need.
     void append(const PhotonPathBlock& paths, LaneMask lanes);
 
 private:
+    void grow();
+
     UnclearedArray<PhotonPathBlock> _blocks;
     uint32_t _count = 0;
     bool _media;

@@ -54,6 +54,7 @@ void ChunkTracer::follow(PhotonPathBlock block, LaneMask active, int bounce)
     if (_inputs.traits.attenuation && !media) absorb(block, surface);
     if (bounce == 0) leaveLight(block, surface);
     const LaneMask stores = classify(block, surface) & ~(_oneSided & ~_seen);
+    if (_inputs.recordsFlights) recordFlights(block, surface, bounce > 0 ? stores : 0);
     if (bounce > 0 || _collided)
         store(block, surface, bounce > 0 ? stores : stores & _collided, bounce);
     if (!media && bounce + 2 > _inputs.options.maxBounces)
@@ -108,14 +109,21 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     for (uint32_t k = 0; k < count; k += kLanes)
         emitBlock(first + k, std::min<uint32_t>(kLanes, count - k));
     readyRays(_rays);
-    for (int bounce = 0; _paths.size() > 0 && bounce < static_cast<int>(kMostFlights); ++bounce)
+    for (int bounce = 0;
+         _paths.size() + _sent.size() > 0 && bounce < static_cast<int>(kMostFlights); ++bounce)
     {
+        std::swap(_sent, _arriving);
+        _sent.clear();
         const uint32_t flying = _paths.size();
         _paths.clear();
-        for (uint32_t k = 0; k < flying; k += kLanes)
+        for (const PhotonPathQueue* queue : {&_paths, &_arriving})
         {
-            const uint32_t used = std::min<uint32_t>(kLanes, flying - k);
-            follow(_paths[k / kLanes], kAllLanes >> (kLanes - used), bounce);
+            const uint32_t size = queue == &_paths ? flying : queue->size();
+            for (uint32_t k = 0; k < size; k += kLanes)
+            {
+                const uint32_t used = std::min<uint32_t>(kLanes, size - k);
+                follow((*queue)[k / kLanes], kAllLanes >> (kLanes - used), bounce);
+            }
         }
     }
 }
@@ -123,7 +131,8 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
                            const Workers& workers, PhotonMemory& memory,
-                           const PhotonGuide* photonGuide)
+                           const PhotonGuide* photonGuide, const PhotonOpenings* openings,
+                           bool recordsFlights)
 {
     TracedPhotons result;
     if (options.use == PhotonUse::None || options.photons == 0 || !emitter.emits()) return result;
@@ -142,7 +151,9 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                              lights,
                              emitter,
                              photonGuide,
+                             openings,
                              options,
+                             recordsFlights,
                              seed,
                              std::any_of(materials.begin(), materials.end(), culls),
                              std::any_of(lights.begin(), lights.end(), isShadowless)};
@@ -164,6 +175,7 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
         result.photons.append(std::move(chunk.photons));
         result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
         result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
+        result.flights.insert(result.flights.end(), chunk.flights.begin(), chunk.flights.end());
         result.cutWalks += chunk.cutWalks;
         result.openWalks += chunk.openWalks;
         result.rays += chunk.rays;

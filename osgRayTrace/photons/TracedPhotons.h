@@ -29,11 +29,28 @@ inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
            a.seed == b.seed && a.photonGuiding == b.photonGuiding && a.beams == b.beams;
 }
 
+/// The way of a photon from one surface, or from its light, to the next.
+struct PhotonFlight
+{
+    Vec3 from{0.0f}, to{0.0f};
+    Vec3 normal{0.0f};   ///< geometric, unit, of the surface at the end, on the side of the photon
+    float power = 0.0f;  ///< luminance, in units of the mean of all photons as they leave lights
+    bool stored = false; ///< a photon was stored at the end
+};
+
+/// A point of a surface at which a view looks up photons.
+struct SeenPoint
+{
+    Vec3 position{0.0f};
+    Vec3 normal{0.0f}; ///< geometric, unit, on the side that light is gathered from
+};
+
 struct TracedPhotons
 {
     PhotonBlocks photons;
-    std::vector<PhotonBeam> beams;   ///< of the first photons, in media that are not dense
-    std::vector<PhotonPoint> points; ///< in dense media
+    std::vector<PhotonBeam> beams;     ///< of the first photons, in media that are not dense
+    std::vector<PhotonPoint> points;   ///< in dense media
+    std::vector<PhotonFlight> flights; ///< if they are wanted
     uint64_t rays = 0;
     uint64_t cutWalks = 0;         ///< photons that ended within a medium: see kMostCollisions
     uint64_t openWalks = 0;        ///< walks below surfaces that have left their mesh

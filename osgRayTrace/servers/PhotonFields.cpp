@@ -21,8 +21,9 @@ namespace
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too.
-static_assert(sizeof(SeenPlane) == 28 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8);
-static_assert(sizeof(GatheredPhotons) == 5560);
+static_assert(sizeof(SeenPlane) == 28 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
+              sizeof(SeenPoint) == 24);
+static_assert(sizeof(GatheredPhotons) == 5592);
 #endif
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
@@ -56,7 +57,8 @@ void putWanted(WireWriter& out, const TilePhotons& photons)
     const GatheredPhotons& g = photons.gathered;
     const bool hasRadii =
         std::any_of(g.radius, g.radius + kTilePixels, [](float r) { return r != 0.0f; });
-    out(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, hasRadii);
+    out(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, g.pointStride,
+        hasRadii);
     if (hasRadii) out.append(g.radius, sizeof g.radius);
     out(!photons.planes.empty());
     putPlanes(out, photons);
@@ -66,7 +68,8 @@ void takeWanted(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasRadii = false, hasPlanes = false;
-    in(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, hasRadii);
+    in(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, g.pointStride,
+       hasRadii);
     if (hasRadii) in.copy(g.radius, sizeof g.radius);
     in(hasPlanes);
     takePlanes(in, hasPlanes, photons);
@@ -84,6 +87,7 @@ void putFound(WireWriter& out, const TilePhotons& photons)
     if (g.comparedBlock >= 0) out.append(g.differences, sizeof g.differences);
     if (hasPlanes) putPlanes(out, photons);
     out.array(g.seen);
+    out.array(g.points);
 }
 
 void takeFound(WireReader& in, TilePhotons& photons)
@@ -97,6 +101,7 @@ void takeFound(WireReader& in, TilePhotons& photons)
     if (g.comparedBlock >= 0) in.copy(g.differences, sizeof g.differences);
     takePlanes(in, hasPlanes, photons);
     in.array(g.seen);
+    in.array(g.points);
 }
 
 } // namespace osgRayTrace::engine

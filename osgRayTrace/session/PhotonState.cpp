@@ -127,6 +127,8 @@ void PhotonState::reset(int tileCount)
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
     std::vector<double>().swap(_carried);
+    std::vector<std::vector<SeenPoint>>().swap(_points);
+    _opened = false;
     _passes->forgetSeen(_view);
 }
 
@@ -162,6 +164,9 @@ void PhotonState::chooseRadii(const PhotonScene& scene, const PassContext& conte
         _seen.resize(_pixels / kTilePixels);
         _seenSquares.assign(density.guideBins, 0.0);
     }
+    if (options.photonGuiding && options.photons > 0 && options.use == PhotonUse::Indirect &&
+        density.emits && !context.traced->traits().media)
+        _points.resize(_pixels / kTilePixels);
     _dark = options.photons > 0 && !density.emits;
     _limited = wanted > 0.0f && _largest != wanted;
     const float width = pixelWidth(context, context.width, context.height);
@@ -204,7 +209,8 @@ int PhotonState::sharedPasses() const
     if (_ended) return PhotonPasses::kFirst;
     if (!_planes.empty()) return kChoosingPasses;
     if (!_carried.empty()) return PhotonPasses::kFirst; // they decide whether photons end
-    return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
+    if (_guides || !_seenSquares.empty()) return PhotonPasses::kFirst + 1;
+    return _opened || !_points.empty() ? 2 : 1;
 }
 
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,
@@ -238,6 +244,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     context.pointRadius =
         std::max(_floor, _pointRadius * static_cast<float>(pointRadiusScale(pass)));
     context.projection = &_projection;
+    _opened = _pass->hasOpenings;
     _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;
 }
@@ -246,6 +253,14 @@ void PhotonState::finish(const std::shared_ptr<const TracedScene>& traced,
                          const PassContext& context, int pass)
 {
     if (_idle || _ended) return;
+    if (!_points.empty())
+    {
+        std::vector<SeenPoint> points;
+        for (const std::vector<SeenPoint>& tile : _points)
+            points.insert(points.end(), tile.begin(), tile.end());
+        _passes->recordPoints(photonScene(traced, context), _view, std::move(points));
+        std::vector<std::vector<SeenPoint>>().swap(_points);
+    }
     if (pass + 1 == PhotonPasses::kFirst) endIfUnneeded();
     sumUpSeen();
     if (pass + 1 < PhotonPasses::kFirst || _seenSquares.empty()) return;
@@ -353,6 +368,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.seenStride = static_cast<uint32_t>(
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     }
+    if (!_points.empty())
+        gathered.pointStride = static_cast<uint32_t>(
+            std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     gathered.separate = _local;
     if (!_planes.empty()) gathered.planes = &_planes[first];
     gathered.choosesPlanes = pass < kChoosingPasses;
@@ -373,6 +391,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
     if (!_carried.empty())
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
+    if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);

@@ -114,7 +114,10 @@ private:
     void fillRadii(std::size_t firstPixel);
     void sumUpSeen();
     void endIfUnneeded();
-    bool choosesAgain(int pass) const { return pass == PhotonPasses::kFirst && _guides && !_local; }
+    bool choosesAgain(int pass) const
+    {
+        return !_local && ((pass == PhotonPasses::kFirst && _guides) || (pass == 1 && _opened));
+    }
 
     std::shared_ptr<PhotonPasses> _passes;
     ViewId _view;
@@ -154,6 +157,9 @@ private:
     std::vector<std::vector<SeenSquares>> _seen;
     /// Sums over all passes that the guide learns from: see PhotonPasses::recordSeen.
     std::vector<double> _seenSquares;
+    /// Points at which the first pass looked up photons, by tile; empty: none are recorded.
+    std::vector<std::vector<SeenPoint>> _points;
+    bool _opened = false; ///< true: the pass at work is sent through openings
 };
 
 } // namespace osgRayTrace::engine

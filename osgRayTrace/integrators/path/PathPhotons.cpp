@@ -39,6 +39,16 @@ void recordSeen(const PhotonMap& map, const PhotonQuery& query, float radiance,
     }
 }
 
+/// Records where some of the pixels look up photons.
+void recordPoints(const PathBlock& block, const PhotonQueryLanes& queries,
+                  GatheredPhotons& gathered)
+{
+    if (!gathered.pointStride) return;
+    for (const int i : lanesIn(queries.lanes))
+        if (block.flagsOf(i).pixel() % gathered.pointStride == 0)
+            gathered.points.push_back({laneOf(queries.position, i), laneOf(queries.normal, i)});
+}
+
 /// Returns the discs of the lanes that gather, but for those that take the photons of footprints,
 /// and chooses the first radius of each pixel that has none yet.
 PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -51,6 +61,7 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
     queries.shadingNormal = bounce.normal;
     queries.mostEdges = std::min(kMostEdges, edgesLeft);
     queries.lanes = bounce.gathering;
+    recordPoints(block, queries, *tile.result.photons.gathered);
     gatherFootprints(tile, block, bounce, queries, footprints);
     queries.lanes &= ~footprints.chosen;
     for (const int i : lanesIn(queries.lanes))

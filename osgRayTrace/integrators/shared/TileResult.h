@@ -7,6 +7,7 @@
 #include "osgRayTrace/film/Film.h"
 #include "osgRayTrace/film/KernelBias.h"
 #include "osgRayTrace/integrators/shared/PixelProjection.h"
+#include "osgRayTrace/photons/TracedPhotons.h"
 
 #include <cstdint>
 #include <vector>
@@ -100,6 +101,11 @@ struct GatheredPhotons
     /// seenStride. If seenStride is 0, no photons are wanted.
     std::vector<SeenPhoton> seen;
     uint32_t seenFirst = 0, seenStride = 0;
+
+    /// The points at which the pixels whose number is a multiple of pointStride looked up photons.
+    /// If pointStride is 0, none are wanted.
+    std::vector<SeenPoint> points;
+    uint32_t pointStride = 0;
 };
 
 struct HitPoints;

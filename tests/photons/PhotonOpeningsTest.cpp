@@ -1,0 +1,290 @@
+// PhotonOpeningsTest.cpp - photons are sent through small openings, and their mean stays the same.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+#include "tests/EngineScenes.h"
+#include "tests/Statistics.h"
+
+#include "osgRayTrace/photons/OpeningFinder.h"
+#include "osgRayTrace/photons/PhotonPasses.h"
+
+#include <cmath>
+#include <random>
+
+using namespace osgRayTrace::engine;
+using namespace osgRayTrace::engine::test;
+
+namespace
+{
+
+constexpr float kSlit = 0.08f;
+
+/// Returns two rooms, the first of which has a lamp. A wall at x = 4 with a slit is between them.
+SceneBuilder rooms(float slit = kSlit)
+{
+    SceneBuilder builder;
+    const Material white = lambert(Vec3(0.7f));
+    builder.add(quadMesh({0, 0, 0}, {8, 0, 0}, {0, 4, 0}), white);
+    builder.add(quadMesh({0, 0, 3}, {0, 4, 0}, {8, 0, 0}), white);
+    builder.add(quadMesh({0, 0, 0}, {0, 0, 3}, {8, 0, 0}), white);
+    builder.add(quadMesh({0, 4, 0}, {8, 0, 0}, {0, 0, 3}), white);
+    builder.add(quadMesh({0, 0, 0}, {0, 4, 0}, {0, 0, 3}), white);
+    builder.add(quadMesh({8, 0, 0}, {0, 0, 3}, {0, 4, 0}), white);
+    builder.add(quadMesh({4, 0, 0}, {0, 2, 0}, {0, 0, 3}), white);
+    if (slit < 2.0f) builder.add(quadMesh({4, 2 + slit, 0}, {0, 2 - slit, 0}, {0, 0, 3}), white);
+    builder.addQuadLight({0.5f, 0.5f, 1.5f}, {0, 0.4f, 0}, {0.4f, 0, 0}, Vec3(100.0f), true);
+    return builder;
+}
+
+/// Returns a view of a wall of the dark room, or of the room with the lamp.
+View viewOf(bool dark, int size)
+{
+    const Vec3d eye = dark ? Vec3d(7.5, 0.5, 1.6) : Vec3d(3.5, 0.5, 1.6);
+    return perspectiveView(eye, eye + Vec3d(-2.0, 2.5, -0.2), {0, 0, 1}, 60.0, size, size);
+}
+
+RenderOptions sppm(bool guided)
+{
+    RenderOptions options = optionsOf(IntegratorKind::Sppm);
+    options.photons = 16384;
+    options.photonGuiding = guided;
+    return options;
+}
+
+std::vector<float> picture(const std::shared_ptr<const TracedScene>& traced, const View& view,
+                           const RenderOptions& options, int threads, int passes = 4)
+{
+    RenderSession session(std::make_shared<Workers>(threads), std::make_shared<PhotonPasses>());
+    session.setScene(traced);
+    session.setOptions(options);
+    session.setView(view);
+    StopRule rule;
+    rule.passes = passes;
+    REQUIRE(session.render(rule).droppedSamples == 0);
+    return session.resolveRadiance();
+}
+
+/// Holds openings of several sizes, which overlap, and a point that sees them all.
+struct Openings
+{
+    PhotonOpenings openings{{{{0.3f, 0.2f, 1.0f}, 0.4f, {0, 0, 1}},
+                             {{-0.1f, 0.3f, 1.2f}, 0.3f, {0, 0, 1}},
+                             {{0.9f, -0.9f, 0.5f}, 0.3f, {0, 0, 1}},
+                             {{0.0f, 0.0f, 1.0f}, 0.5f, {0, 0, -1}}}, // from behind
+                            2.0f};
+    PhotonOpenings::Views views = {};
+
+    explicit Openings(float power = 1.0f)
+    {
+        FloatLanes powers = {};
+        for (int i = 0; i < kLanes; ++i)
+        {
+            setLane(views.normal, i, Vec3(0, 0, 1));
+            powers[i] = power;
+        }
+        openings.look(powers, kAllLanes, views);
+        REQUIRE(views.lanes == kAllLanes);
+    }
+};
+
+/// Returns the density of directions through the openings, from the weight that they give.
+double densityOf(const Openings& o, Vec3 wi)
+{
+    Vec3Lanes directions = {};
+    setLane(directions, 0, wi);
+    FloatLanes weights;
+    o.openings.weigh(o.views, directions, 0, weights);
+    const double pdf = double(kInvPi) * double(wi.z), weight = double(weights[0]);
+    return (pdf / weight - pdf) / double(o.views.children[0]);
+}
+
+struct Numbers
+{
+    std::mt19937 random{7};
+    float operator()() { return unitFloat(uint32_t(random())); }
+};
+
+Vec3 childOf(const Openings& o, Numbers& numbers)
+{
+    FloatLanes choice = {}, u = {}, v = {};
+    choice[0] = numbers();
+    u[0] = numbers();
+    v[0] = numbers();
+    Vec3Lanes wi = {};
+    o.openings.sample(o.views, choice, u, v, 1u, wi);
+    return laneOf(wi, 0);
+}
+
+/// Returns the powers of the photons of a pass that end in the dark room, summed up.
+double darkPower(const std::shared_ptr<const TracedScene>& traced, const PhotonOpenings* openings,
+                 int pass, std::vector<PhotonFlight>* flights = nullptr)
+{
+    const std::vector<Light>& lights = traced->scene().lights;
+    const PhotonEmitter emitter(*traced, lights, 0.0f, PhotonUse::Indirect);
+    PhotonPassOptions options;
+    options.use = PhotonUse::Indirect;
+    options.photons = 16384;
+    const Workers workers(2);
+    PhotonMemory memory;
+    const TracedPhotons photons = tracePhotons(*traced, lights, emitter, options, pass, workers,
+                                               memory, nullptr, openings, flights != nullptr);
+    if (flights) flights->insert(flights->end(), photons.flights.begin(), photons.flights.end());
+    double sum = 0.0;
+    for (const Photon& photon : listOf(photons.photons.spans()))
+        if (photon.position.x > 4.001f) sum += double(luminance(photon.power));
+    return sum;
+}
+
+/// Returns points on the far wall of the dark room.
+std::vector<SeenPoint> farWall()
+{
+    std::vector<SeenPoint> points;
+    for (int k = 0; k < 4096; ++k)
+        points.push_back({{8.0f, float(k % 64) / 16.0f, float(k / 64) * 3.0f / 64.0f}, {-1, 0, 0}});
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("photon openings: the density of directions is one in all, and that of the samples",
+          "[photons][statistics]")
+{
+    const Openings o;
+    CHECK(o.views.children[0] > 0.0f);
+    Numbers numbers;
+    Estimate whole, bins[8];
+    constexpr int kSamples = 200000;
+    for (int k = 0; k < kSamples; ++k)
+    {
+        // Uniform in the hemisphere; the cones of the openings do not reach the horizon.
+        const Vec3 wi = squareToCone({numbers(), numbers()}, 1.0f);
+        const double density = 2.0 * double(kPi) * densityOf(o, wi);
+        whole.add(density);
+        const int bin = (wi.x > 0.3f) + 2 * (wi.y > 0.2f) + 4 * (wi.z > 0.9f);
+        for (int b = 0; b < 8; ++b)
+            bins[b].add(b == bin ? density : 0.0);
+    }
+    CAPTURE(whole.mean(), whole.standardError());
+    CHECK(whole.agrees(1.0)); // false alarm: 6e-5
+    CHECK(whole.standardError() < 0.01);
+    double counts[8] = {};
+    for (int k = 0; k < kSamples; ++k)
+    {
+        const Vec3 wi = childOf(o, numbers);
+        CHECK(densityOf(o, wi) > 0.0);
+        counts[(wi.x > 0.3f) + 2 * (wi.y > 0.2f) + 4 * (wi.z > 0.9f)] += 1.0;
+    }
+    // Chi-square of the counts beside densities that have errors themselves; seven degrees of
+    // freedom at most are above 29 with a probability of 1.4e-4.
+    double chiSquare = 0.0;
+    for (int b = 0; b < 8; ++b)
+    {
+        const double share = counts[b] / kSamples, error = bins[b].standardError();
+        if (share == 0.0 && bins[b].mean() == 0.0) continue;
+        chiSquare += std::pow(share - bins[b].mean(), 2.0) /
+                     (share * (1.0 - share) / kSamples + error * error);
+    }
+    CAPTURE(chiSquare);
+    CHECK(chiSquare < 29.0);
+}
+
+TEST_CASE("photon openings: a photon and its children have the photon's power together",
+          "[photons][statistics]")
+{
+    for (const float power : {0.1f, 1.0f, 100.0f})
+    {
+        const Openings o(power);
+        Numbers numbers;
+        Estimate sums, along; // of all light, and of what goes to one side
+        for (int k = 0; k < 100000; ++k)
+        {
+            Vec3Lanes wi = {};
+            FloatLanes weights;
+            const Vec3 plain = squareToCosineHemisphere(numbers(), numbers());
+            setLane(wi, 0, plain);
+            o.openings.weigh(o.views, wi, 0, weights);
+            double sum = double(weights[0]), side = plain.x > 0.3f ? sum : 0.0;
+            if (numbers() < o.views.children[0])
+            {
+                const Vec3 child = childOf(o, numbers);
+                setLane(wi, 0, child);
+                o.openings.weigh(o.views, wi, 1, weights);
+                sum += double(weights[0]);
+                side += child.x > 0.3f ? double(weights[0]) : 0.0;
+            }
+            sums.add(sum);
+            along.add(side);
+        }
+        // The share of a cosine-weighted hemisphere beyond x = 0.3, as a segment of the unit disc.
+        const double expected = (std::acos(0.3) - 0.3 * std::sqrt(0.91)) / double(kPi);
+        CAPTURE(power, sums.mean(), sums.standardError(), along.mean(), expected);
+        CHECK(sums.agrees(1.0)); // false alarms: 6e-5 each
+        CHECK(along.agrees(expected));
+    }
+}
+
+TEST_CASE("photon openings: a slit is found, and its light varies by half at most",
+          "[photons][statistics]")
+{
+    const auto traced = rooms().build(2);
+    std::vector<PhotonFlight> flights;
+    Estimate plain, sent;
+    constexpr int kPasses = 24;
+    for (int pass = 0; pass < kPasses; ++pass)
+        plain.add(darkPower(traced, nullptr, pass, pass < 6 ? &flights : nullptr));
+    const Sphere scene{{4, 2, 1.5f}, 4.8f};
+    CHECK(seenShare(scene, flights, farWall()) < 0.1);
+    const auto openings = findOpenings(scene, flights, farWall(), 6 * 16384);
+    REQUIRE(openings);
+    int atSlit = 0;
+    for (const PhotonOpening& opening : openings->openings())
+        atSlit +=
+            std::abs(opening.centre.x - 4.0f) < 0.3f && std::abs(opening.centre.y - 2.04f) < 0.3f;
+    CAPTURE(openings->openings().size(), atSlit);
+    CHECK(2 * std::size_t(atSlit) > openings->openings().size());
+    for (int pass = 0; pass < kPasses; ++pass)
+        sent.add(darkPower(traced, openings.get(), 1000 + pass));
+    CAPTURE(plain.mean(), plain.standardError(), sent.mean(), sent.standardError());
+    const double spread = std::hypot(plain.standardError(), sent.standardError());
+    CHECK(std::abs(plain.mean() - sent.mean()) <= 4.0 * spread); // false alarm: 1e-4
+    CHECK(sent.variance() < 0.5 * plain.variance());
+}
+
+TEST_CASE("photon openings: none where the view shows the lit room, or the opening is wide",
+          "[photons]")
+{
+    // Pictures are the same bit by bit as without guiding.
+    for (const bool wide : {false, true})
+    {
+        const auto traced = rooms(wide ? 2.0f : kSlit).build(2);
+        const View view = viewOf(wide, 32);
+        CHECK(picture(traced, view, sppm(true), 2) == picture(traced, view, sppm(false), 2));
+    }
+}
+
+TEST_CASE("photon openings: equal for any number of threads, and the mean that of passes without",
+          "[photons][statistics]")
+{
+    const auto traced = rooms().build(2);
+    const View view = viewOf(true, 32);
+    const std::vector<float> one = picture(traced, view, sppm(true), 1);
+    CHECK(one == picture(traced, view, sppm(true), 2));
+    CHECK(one == picture(traced, view, sppm(true), 16));
+    CHECK(one != picture(traced, view, sppm(false), 2));
+
+    Estimate means[2];
+    for (const bool guided : {false, true})
+        for (uint32_t seed = 0; seed < 12; ++seed)
+        {
+            RenderOptions options = sppm(guided);
+            options.photonRadius = 0.2f;
+            options.seed = seed + 100 * guided;
+            const std::vector<float> rgba = picture(traced, view, options, 2, 8);
+            double sum = 0.0;
+            for (std::size_t k = 0; k < rgba.size(); k += 4)
+                sum += double(rgba[k]);
+            means[guided].add(sum);
+        }
+    const double spread = std::hypot(means[0].standardError(), means[1].standardError());
+    CAPTURE(means[0].mean(), means[0].standardError(), means[1].mean(), means[1].standardError());
+    CHECK(std::abs(means[0].mean() - means[1].mean()) <= 4.0 * spread); // false alarm: 1e-3
+}
