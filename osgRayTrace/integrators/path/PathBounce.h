@@ -154,11 +154,20 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
               LaneMask visible, LaneMask withoutMis);
 
+/// Sets the radiance that the lanes send back along their rays from light samples that nothing
+/// hides; other lanes get 0. withoutMis: see addLight; diffuse lanes are all of this kind or none.
+void scatteredLight(const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+                    LaneMask lanes, LaneMask withoutMis, Vec3Lanes& scattered);
+
+/// Asks each of a few area lights for a sample in each of the lanes, and adds the light of one of
+/// them: see PathCandidates.cpp.
+void sampleFewLights(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes);
+
 /// Adds samples of the environment if it shines. seeds are the seeds of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
 
-/// Adds the samples of the LightTree, or else one sample of the area lights; the samples of the
-/// environment; and one sample of each delta light of the pass that is not in the tree.
+/// Adds the samples of the LightTree, or else one of the samples of the area lights; the samples of
+/// the environment; and one sample of each delta light of the pass that is not in the tree.
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on, and removes the other lanes from block.active.
