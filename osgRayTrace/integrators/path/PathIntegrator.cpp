@@ -236,6 +236,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
     }
     beginReuse(tile, use);
+    beginSkyRays(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
