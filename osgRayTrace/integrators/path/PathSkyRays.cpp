@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Samples of the sky leave directions that are no brighter than its mean to the rays that surfaces
-// send on [Karlik19]. In a room few of these rays find a window, which makes nearly all of the
+// send on [Karlik19]. In a room few of these rays find a window, which makes most of the
 // noise. So diffuse surfaces that the eye sees send n rays more, of the same density, which add the
 // light of the sky and end. The path's own ray adds its share, 1 / (n + 1), if it meets the sky
 // next:
