@@ -170,7 +170,8 @@ bool LightTable::canBeNumbered(std::size_t unplaced) const
     return emitters < kInvalid;
 }
 
-/// Leaves the lights without any tree: they are chosen by power, and their triangles by area.
+/// Leaves the lights without any tree: more than kMostWithoutTree are chosen by power,
+/// and triangles by area.
 void LightTable::dropMeshTrees()
 {
     for (Record& record : _records)

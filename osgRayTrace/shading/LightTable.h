@@ -70,6 +70,10 @@ public:
     const std::vector<uint32_t>& areaLights() const { return _areaLights; }
     const std::vector<uint32_t>& deltaLights() const { return _deltaLights; }
 
+    /// Returns whether all area lights may be asked for a sample at each surface. Without a tree
+    /// this is false only if the emitters are too many to be numbered.
+    bool hasFewAreaLights() const { return _areaLights.size() <= kMostWithoutTree; }
+
     /// Returns the tree over the scene's emitters; null if they are so few that each may be
     /// sampled.
     const SceneLightTree* tree() const { return _tree.get(); }

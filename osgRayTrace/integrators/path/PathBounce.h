@@ -59,6 +59,15 @@ struct PixelSums
 
 struct LightLanes;
 
+/// What the tile knows of rays that ask for the sky: see PathSkyRays.cpp.
+struct SkyRays
+{
+    bool active = false;
+    int asked = 0, found = 0;         ///< rays of this pass, and those of them that met the sky
+    int counts[kTileBlocks] = {};     ///< rays of each pixel of a block's
+    LaneMask lanes[kTileBlocks] = {}; ///< pixels that have asked
+};
+
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
@@ -83,6 +92,7 @@ struct Tile
     PixelSums sums;
     PathQueue paths;
     ReuseGroups reuse;
+    SkyRays sky;
     Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
     GatherScratch gatherScratch; ///< scratch of all photon look-ups
     bool hasBeams = false;       ///< beams are those near the tile's camera rays
@@ -154,11 +164,30 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
               LaneMask visible, LaneMask withoutMis);
 
+/// Sets the radiance that the lanes send back along their rays from light samples that nothing
+/// hides; other lanes get 0. withoutMis: see addLight; diffuse lanes are all of this kind or none.
+void scatteredLight(const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+                    LaneMask lanes, LaneMask withoutMis, Vec3Lanes& scattered);
+
+/// Asks each of a few area lights for a sample in each of the lanes, and adds the light of one of
+/// them: see PathCandidates.cpp.
+void sampleFewLights(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lanes);
+
+/// Decides whether the pass has rays that ask for the sky.
+void beginSkyRays(Tile& tile, PhotonUse use);
+
+/// Sends further rays from the diffuse surfaces that camera rays met, and adds the sky's light.
+void addSkyRays(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Returns the share of the sky's light that the path adds itself at the end of the ray of this
+/// number; the rays that asked for the sky have added the others.
+float shareOfSky(const Tile& tile, PathFlags path, int number);
+
 /// Adds samples of the environment if it shines. seeds are the seeds of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
 
-/// Adds the samples of the LightTree, or else one sample of the area lights; the samples of the
-/// environment; and one sample of each delta light of the pass that is not in the tree.
+/// Adds the samples of the LightTree, or else one of the samples of the area lights; the samples of
+/// the environment; and one sample of each delta light of the pass that is not in the tree.
 void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on, and removes the other lanes from block.active.

@@ -60,6 +60,7 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
 {
     if (!tile.context.traced->lights().shiningEnvironment()) return;
     const LaneMask lanes = (bounce.diffuse | bounce.general) & ~bounce.carried;
+    if (tile.sky.active && bounce.number == 0) addSkyRays(tile, block, bounce);
     LightLanes samples;
     if (tile.context.strata && bounce.number == 0)
     {
@@ -112,7 +113,8 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             sampled ? powerHeuristic(block.pdfW[i],
                                      environmentPdfW(tile.context, *environment, direction))
                     : 1.0f;
-        tile.sums.add(path, throughput * environment->radiance(direction) * weight);
+        const float share = sampled ? shareOfSky(tile, path, number) : 1.0f;
+        tile.sums.add(path, throughput * environment->radiance(direction) * (weight * share));
     }
 }
 

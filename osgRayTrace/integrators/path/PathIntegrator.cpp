@@ -9,14 +9,15 @@
 //   beta_{k+1} = beta_k f cos / pdfW / q
 //
 // The weights w = p_a^2 / (p_a^2 + p_b^2) are those of the power heuristic, y is sampled on one
-// light that a LightTree chooses for x_k, or among a few area lights by power, and q is the
-// survival probability of Russian roulette. The probability q is 1 while beta is above a bound, and
-// is beta over this bound below the bound, so that beta stays at the bound. For q, beta is taken as
-// it would be outside of all glass, because beta in glass is 1/eta^2 of the beta that comes out
-// again. A q that is capped below 1 would let beta, and with beta the variance, grow along paths
-// that lose less than q takes. Sixteen paths are followed together; after each bounce the tile's
-// remaining paths move up into the lanes of those that ended. The light that a path finds from its
-// second surface on is shared with other pixels, see PathReuse.cpp.
+// light that a LightTree chooses for x_k, or on each of a few area lights (PathCandidates.cpp has
+// one shadow ray for them all), and q is the survival probability of Russian roulette. The
+// probability q is 1 while beta is above a bound, and is beta over this bound below the bound, so
+// that beta stays at the bound. For q, beta is taken as it would be outside of all glass, because
+// beta in glass is 1/eta^2 of the beta that comes out again. A q that is capped below 1 would let
+// beta, and with beta the variance, grow along paths that lose less than q takes. Sixteen paths are
+// followed together; after each bounce the tile's remaining paths move up into the lanes of those
+// that ended. The light that a path finds from its second surface on is shared with other pixels,
+// see PathReuse.cpp.
 #include "osgRayTrace/integrators/path/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -235,6 +236,7 @@ void tracePaths(Tile& tile, PhotonUse use)
         }
     }
     beginReuse(tile, use);
+    beginSkyRays(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;

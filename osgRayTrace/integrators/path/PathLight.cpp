@@ -52,7 +52,10 @@ float pdfOfLight(const LightTable& table, uint32_t light, int number, const Path
         std::fabs(glm::dot(directionOf(ray, i), laneOf(surface.geometricNormal, i)));
     const Vec3 from(ray.originX[i], ray.originY[i], ray.originZ[i]);
     if (!table.tree())
-        return table.areaLightPmf(light) * table.pdfFrom(light, from, distance, cosThetaL);
+    {
+        const float pmf = table.hasFewAreaLights() ? 1.0f : table.areaLightPmf(light);
+        return pmf * table.pdfFrom(light, from, distance, cosThetaL);
+    }
     if (!(block.pdfW[i] < kInfinity)) return 0.0f; // no light sample was taken there
     const uint32_t emitter = table.emitterOf(light, block.rays.primitive[i]);
     if (emitter == kInvalid) return 0.0f;
@@ -119,18 +122,15 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
 
 } // namespace
 
-static void addClearLight(Tile& tile, const PathBlock& block, const Bounce& bounce,
-                          const LightLanes& light, LaneMask visible, LaneMask withoutMis)
+void scatteredLight(const PathBlock& block, const Bounce& bounce, const LightLanes& light,
+                    LaneMask lanes, LaneMask withoutMis, Vec3Lanes& scattered)
 {
-    if (visible & bounce.diffuse)
-    {
-        Vec3Lanes radiance;
-        diffuseLight(bounce.normal, bounce.albedo, light, visible & bounce.diffuse,
-                     block.throughput, (visible & bounce.diffuse & withoutMis) != 0, radiance);
-        for (const int i : lanesIn(visible & bounce.diffuse))
-            tile.sums.add(block.flagsOf(i), laneOf(radiance, i));
-    }
-    const LaneMask general = visible & bounce.general;
+    const LaneMask diffuse = lanes & bounce.diffuse, general = lanes & bounce.general;
+    if (diffuse)
+        diffuseLight(bounce.normal, bounce.albedo, light, diffuse, block.throughput,
+                     (diffuse & withoutMis) != 0, scattered);
+    else
+        scattered = {};
     if (!general) return;
     Vec3Lanes fCos;
     FloatLanes pdfW;
@@ -142,9 +142,20 @@ static void addClearLight(Tile& tile, const PathBlock& block, const Bounce& boun
         const float mis =
             (withoutMis >> i) & 1u ? 1.0f : powerHeuristic(1.0f, pdfW[i] * light.weight[i]);
         const Vec3 radiance(light.radiance[0][i], light.radiance[1][i], light.radiance[2][i]);
-        tile.sums.add(block.flagsOf(i), laneOf(block.throughput, i) * laneOf(fCos, i) * radiance *
-                                            (light.weight[i] * mis));
+        setLane(scattered, i,
+                laneOf(block.throughput, i) * laneOf(fCos, i) * radiance * (light.weight[i] * mis));
     }
+}
+
+static void addClearLight(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                          const LightLanes& light, LaneMask visible, LaneMask withoutMis)
+{
+    const LaneMask lanes = visible & (bounce.diffuse | bounce.general);
+    if (!lanes) return;
+    Vec3Lanes scattered;
+    scatteredLight(block, bounce, light, lanes, withoutMis, scattered);
+    for (const int i : lanesIn(lanes))
+        tile.sums.add(block.flagsOf(i), laneOf(scattered, i));
 }
 
 void addLight(Tile& tile, const PathBlock& block, const Bounce& bounce, const LightLanes& light,
@@ -241,6 +252,11 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce)
         return;
     }
     if (table.areaLights().empty()) return;
+    if (table.areaLights().size() > 1 && table.hasFewAreaLights())
+    {
+        sampleFewLights(tile, block, bounce, lanes);
+        return;
+    }
 
     FloatLanes u, v;
     dimensionPoints(seeds, tile.context.key.index,
