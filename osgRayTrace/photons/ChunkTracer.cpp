@@ -220,12 +220,12 @@ LaneMask ChunkTracer::sendThroughOpenings(const PhotonPathBlock& block, const Su
 {
     FloatLanes power, number, choice, u, v, unused, roulette;
     const auto photons = static_cast<float>(_inputs.options.photons);
-    for (int i = 0; i < kLanes; ++i)
-        power[i] = photons * luminanceOf(block.power.x[i], block.power.y[i], block.power.z[i]);
     const LaneMask lanes = _diffuse & _scattered.alive;
+    power = {};
     _views.position = _views.normal = {};
     for (const int i : lanesIn(lanes))
     {
+        power[i] = photons * luminanceOf(block.power.x[i], block.power.y[i], block.power.z[i]);
         setLane(_views.position, i, laneOf(surface.position, i));
         setLane(_views.normal, i, laneOf(_normal, i));
     }
@@ -248,9 +248,12 @@ LaneMask ChunkTracer::sendThroughOpenings(const PhotonPathBlock& block, const Su
     FloatLanes shares;
     _inputs.openings->weigh(_views, children.wi, 1, shares);
     PhotonPathBlock copy = block;
-    const LaneMask alive = leaveSurfaces(surface, _normal, children, roulette, copy);
+    LaneMask alive = leaveSurfaces(surface, _normal, children, roulette, copy);
     for (const int i : lanesIn(alive))
+    {
         setLane(copy.power, i, laneOf(copy.power, i) * shares[i]);
+        if (!(shares[i] > 0.0f)) alive &= ~(1u << i); // below the horizon of the normal
+    }
     _sent.append(copy, alive);
     return _views.lanes;
 }

@@ -61,7 +61,8 @@ struct Grid
     uint32_t along(float x) const
     {
         const float cell = x * scale;
-        return cell > 0.0f ? std::min(static_cast<uint32_t>(cell), count - 1) : 0u;
+        if (!(cell > 0.0f)) return 0;
+        return cell < static_cast<float>(count) ? static_cast<uint32_t>(cell) : count - 1;
     }
     uint32_t cellOf(Vec3 p) const
     {
@@ -224,23 +225,32 @@ double coverFlights(const Grid& grid, const std::vector<UsefulFlight>& flights,
                      cell.all += flights[k].use;
                  });
     }
+    double most = 0.0;
+    for (const auto& cell : cells)
+        most = std::max(most, cell.second.all);
+    std::vector<uint32_t> major; // the cells that may have openings
+    for (uint32_t k = 0; k < cells.size(); ++k)
+        if (cells[k].second.all >= kLeastUse * most) major.push_back(k);
     std::vector<bool> held(flights.size());
-    double sum = 0.0, most = 0.0;
-    while (openings.size() < kMostOpenings && sum < kWantedHeld * all)
+    double sum = 0.0;
+    while (!major.empty() && openings.size() < kMostOpenings && sum < kWantedHeld * all)
     {
-        const auto best = std::max_element(cells.begin(), cells.end(),
-                                           [](const auto& a, const auto& b)
-                                           { return a.second.use < b.second.use; });
+        const auto place = std::max_element(major.begin(), major.end(),
+                                            [&](uint32_t a, uint32_t b)
+                                            { return cells[a].second.use < cells[b].second.use; });
+        const auto best = cells.begin() + *place;
+        if (!(best->second.use > 1e-4 * all)) break;
         PhotonOpening opening;
         opening.centre = grid.centreOf(best->first);
         opening.radius = kOpeningRadius / grid.scale;
         opening.axis = axisAround(opening.centre, kAxisRadius * opening.radius, flights);
         const float length = glm::length(opening.axis);
-        if (!(best->second.use > 1e-4 * all)) break;
-        const bool isMinor = best->second.all < kLeastUse * most;
-        most = std::max(most, best->second.all);
         best->second.use = 0.0;
-        if (isMinor || !(length > 0.0f)) continue;
+        if (!(length > 0.0f))
+        {
+            major.erase(place);
+            continue;
+        }
         opening.axis /= length;
         openings.push_back(opening);
         for (uint32_t k = 0; k < flights.size(); ++k)

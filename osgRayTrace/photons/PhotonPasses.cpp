@@ -258,7 +258,7 @@ std::shared_ptr<const PhotonGuide> PhotonPasses::guideOf(int index)
 std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const Workers& workers)
 {
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
-    if (index < 1 || _points.empty()) return nullptr;
+    if (index < kFirst || _points.empty() || _scene.traced->traits().media) return nullptr;
     if (_lookedForOpenings) return _openings;
     _lookedForOpenings = true;
     std::vector<SeenPoint> seen;
@@ -278,7 +278,9 @@ std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const 
     if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1);
     if (seenShare(sphere, _fewFlights, seen) > kMostSeenShare) return nullptr;
     if (_flights.empty()) _flights = traceFlights(many, 2);
-    return _openings = findOpenings(sphere, _flights, seen, many);
+    _openings = findOpenings(sphere, _flights, seen, many);
+    if (!_openings) std::vector<PhotonFlight>().swap(_flights); // they are some megabytes
+    return _openings;
 }
 
 ViewId PhotonPasses::newView()

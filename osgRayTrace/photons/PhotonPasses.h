@@ -74,7 +74,7 @@ struct PhotonDensity
 /// two processes trace the same photons from kFirst on only if they show the same views. Without
 /// photonGuiding they always do. A view that starts anew takes back what it recorded.
 ///
-/// With photonGuiding and PhotonUse::Indirect, all passes but the first one are also sent through
+/// With photonGuiding and PhotonUse::Indirect, passes from kFirst on are also sent through
 /// PhotonOpenings, if photons of their own tell that little of what views see is reached otherwise.
 /// What was said of the guide is true of openings, too: they depend on what views saw of the first
 /// pass.

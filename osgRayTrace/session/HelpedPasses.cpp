@@ -65,6 +65,8 @@ void SessionState::takePhotons(int tile, int pass, const TilePhotons& traced, fl
         std::copy(traced.planes.begin(), traced.planes.end(), gathered.planes);
     for (const SeenPhoton& photon : found.seen)
         if (photon.bin < photons.guideBins()) gathered.seen.push_back(photon);
+    for (const SeenPoint& point : found.points)
+        if (gathered.pointStride && isFinite(point.position)) gathered.points.push_back(point);
     photons.end(tile, pass, gathered, alpha, rgba);
 }
 

@@ -209,8 +209,7 @@ int PhotonState::sharedPasses() const
     if (_ended) return PhotonPasses::kFirst;
     if (!_planes.empty()) return kChoosingPasses;
     if (!_carried.empty()) return PhotonPasses::kFirst; // they decide whether photons end
-    if (_guides || !_seenSquares.empty()) return PhotonPasses::kFirst + 1;
-    return _opened || !_points.empty() ? 2 : 1;
+    return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
 }
 
 void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, PassContext& context,

@@ -116,7 +116,8 @@ private:
     void endIfUnneeded();
     bool choosesAgain(int pass) const
     {
-        return !_local && ((pass == PhotonPasses::kFirst && _guides) || (pass == 1 && _opened));
+        const bool opens = _opened && !_planes.empty(); // else the pass is not shared
+        return !_local && pass == PhotonPasses::kFirst && (_guides || opens);
     }
 
     std::shared_ptr<PhotonPasses> _passes;

@@ -1,7 +1,7 @@
 // ServerPoolTest.cpp - pictures with the help of servers are those without, whatever befalls them.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
-#include "tests/EngineScenes.h"
+#include "tests/SlitRooms.h"
 #include "tests/servers/ThreadServer.h"
 
 #include "osgRayTrace/servers/ServerPool.h"
@@ -26,11 +26,12 @@ constexpr int kPasses = 3;
 /// Returns a session of one thread, with help or without.
 std::unique_ptr<RenderSession> sessionOf(const std::shared_ptr<const TracedScene>& scene,
                                          const RenderOptions& options,
-                                         const std::shared_ptr<TileHelp>& help)
+                                         const std::shared_ptr<TileHelp>& help,
+                                         const View& view = cornellView(70, 50))
 {
     auto session = std::make_unique<RenderSession>(std::make_shared<Workers>(1));
     session->setScene(scene);
-    session->setView(cornellView(70, 50));
+    session->setView(view);
     session->setOptions(options);
     session->setHelp(help);
     return session;
@@ -51,9 +52,10 @@ struct Image
 
 /// Renders an image, in any thread. Its passes are 0 if that fails.
 Image rendered(const std::shared_ptr<const TracedScene>& scene, const RenderOptions& options,
-               const std::shared_ptr<TileHelp>& help, int passes = kPasses)
+               const std::shared_ptr<TileHelp>& help, int passes = kPasses,
+               const View& view = cornellView(70, 50))
 {
-    const auto session = sessionOf(scene, options, help);
+    const auto session = sessionOf(scene, options, help, view);
     StopRule rule;
     rule.passes = passes;
     const RenderProgress progress = session->render(rule);
@@ -68,9 +70,10 @@ Image rendered(const std::shared_ptr<const TracedScene>& scene, const RenderOpti
 }
 
 Image imageOf(const std::shared_ptr<const TracedScene>& scene, const RenderOptions& options,
-              const std::shared_ptr<TileHelp>& help, int passes = kPasses)
+              const std::shared_ptr<TileHelp>& help, int passes = kPasses,
+              const View& view = cornellView(70, 50))
 {
-    const Image image = rendered(scene, options, help, passes);
+    const Image image = rendered(scene, options, help, passes, view);
     REQUIRE(image.passes == passes);
     return image;
 }
@@ -285,6 +288,26 @@ TEST_CASE("servers: equal images with photons, guided to what is seen", "[server
             CHECK(imageOf(scene, options, pool, 7) == alone);
             CHECK(pool->tilesTraced() > before);
         }
+}
+
+TEST_CASE("servers: equal images with photons that are sent through openings", "[servers]")
+{
+    const auto scene = rooms().build(1);
+    const View view = viewOf(true, 48);
+    RenderOptions options = optionsOf(IntegratorKind::Sppm);
+    options.photons = 16384;
+    const Image alone = imageOf(scene, options, nullptr, 6, view);
+    options.photonGuiding = false;
+    REQUIRE(imageOf(scene, options, nullptr, 6, view).radiance != alone.radiance); // there are some
+    options.photonGuiding = true;
+    const auto pool = std::make_shared<ServerPool>();
+    ThreadServer first{Fate{}}, second{Fate{}};
+    pool->add("first", first.connect());
+    pool->add("second", second.connect());
+    REQUIRE(waitForHelp(*pool, pool, scene, options));
+    const uint64_t before = pool->tilesTraced();
+    CHECK(imageOf(scene, options, pool, 6, view) == alone);
+    CHECK(pool->tilesTraced() > before);
 }
 
 TEST_CASE("servers: AUTOMATIC ends photons as without them if they trace all tiles", "[servers]")

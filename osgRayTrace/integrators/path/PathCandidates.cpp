@@ -96,8 +96,11 @@ void sampleFewLights(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMas
     dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionLightPoint), u, v);
     dimensionPoints(block.seed, pass, bounceDimension(bounce.number, DimensionLightChoice),
                     candidates.choice, unused);
-    for (const uint32_t light : tile.context.traced->lights().areaLights())
+    const LightTable& table = tile.context.traced->lights();
+    for (const uint32_t light : table.areaLights())
     {
+        // Paths that meet a light without a probability by chance add all of it.
+        if (!(table.areaLightPmf(light) > 0.0f)) continue;
         LightLanes samples;
         areaLightLanes(tile.context, light, 1.0f,
                        {bounce.surface, lanes, bounce.transmissive, u, v}, samples);

@@ -113,10 +113,14 @@ void diffuseLight(const Vec3Lanes& normal, const Vec3Lanes& albedo, const LightL
         const float ratio = pdfBsdf * light.weight[i];
         const float mis = select(withoutMis, 1.0f, 1.0f / (1.0f + ratio * ratio));
         const float unmasked = pdfBsdf * light.weight[i] * mis;
-        const float weight = select(laneBit(visible, i), unmasked, 0.0f);
-        radiance.x[i] = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * weight;
-        radiance.y[i] = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * weight;
-        radiance.z[i] = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * weight;
+        // Other lanes may hold anything, also what is no number.
+        const uint32_t seen = laneBit(visible, i);
+        const float x = throughput.x[i] * albedo.x[i] * light.radiance[0][i] * unmasked;
+        const float y = throughput.y[i] * albedo.y[i] * light.radiance[1][i] * unmasked;
+        const float z = throughput.z[i] * albedo.z[i] * light.radiance[2][i] * unmasked;
+        radiance.x[i] = select(seen, x, 0.0f);
+        radiance.y[i] = select(seen, y, 0.0f);
+        radiance.z[i] = select(seen, z, 0.0f);
     }
 }
 

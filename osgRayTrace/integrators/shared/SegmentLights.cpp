@@ -340,11 +340,11 @@ bool Segments::setArea(int i, const LightTable::Choice& chosen)
     Vec3 radiance = light.radiance;
     if (light.kind == LightKind::Mesh)
     {
-        MaterialPoint at;
-        at.uv = point->uv;
         const Scene& scene = _context.traced->scene();
-        radiance =
-            _context.traced->materials().emission(scene.instances[light.instance].material, at);
+        const uint32_t material = scene.instances[light.instance].material;
+        MaterialPoint at;
+        at.setUv(emissionUvSet(scene.materials[material]), point->uv);
+        radiance = _context.traced->materials().emission(material, at);
     }
     return setTowards(i, near(i, point->position, _stretches.along[i]), point->position,
                       point->normal, light.twoSided || light.kind == LightKind::Mesh,
