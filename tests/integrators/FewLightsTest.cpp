@@ -180,6 +180,26 @@ TEST_CASE("few lights: together they give what they give one by one", "[integrat
     }
 }
 
+TEST_CASE("few lights: a lamp counts once beside one of 1e10 times its power",
+          "[integrators][statistics]")
+{
+    // Shares of the power are floats: the dim lamp's, which comes after the other's, is 0.
+    SceneBuilder builder;
+    const uint32_t plane =
+        builder.add(quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), lambert(Vec3(0.5f)));
+    const Square dim{{0.0f, 0.0f, 0.5f}, 2.0f, 1.0f};
+    add(builder, {{0.0f, 0.0f, -5.0f}, 100.0f, 1e7f}); // shines away from the plane
+    add(builder, dim);
+    const auto traced = builder.build();
+    REQUIRE(traced->lights().areaLightPmf(1) == 0.0f);
+    const double exact = reflected(*traced, traced->scene().instances[plane].material, {dim});
+    const Estimate radiance = measure(traced, patchView({0, 0, 0}, {0, 0, 1}, 1e-4, 16),
+                                      optionsOf(IntegratorKind::Path, 1), 64);
+    CAPTURE(radiance.mean(), radiance.standardError(), exact);
+    CHECK(radiance.agrees(exact, 1e-4 * exact)); // false alarm: 6e-5
+    CHECK(radiance.standardError() < 0.01 * exact);
+}
+
 TEST_CASE("few lights: pictures are equal for any number of threads", "[integrators]")
 {
     const auto traced = room(7u, Way::Clear);
