@@ -36,15 +36,16 @@ public:
     PhotonSpans() = default;
     PhotonSpans(const std::vector<Photon>& photons); // implicit: a vector is some spans, too
 
+    /// Appends a span.
     void add(PhotonSpan span)
     {
         _spans.push_back(span);
         _size += span.count;
     }
 
-    std::size_t size() const { return _size; } ///< number of photons
-    std::size_t spans() const { return _spans.size(); }
-    std::size_t places() const { return _spans.size() * kSpanPhotons; }
+    std::size_t size() const { return _size; }                          ///< number of photons
+    std::size_t spans() const { return _spans.size(); }                 ///< number of spans
+    std::size_t places() const { return _spans.size() * kSpanPhotons; } ///< end of all places
     const PhotonSpan& span(std::size_t index) const { return _spans[index]; }
     std::vector<PhotonSpan>::const_iterator begin() const { return _spans.begin(); }
     std::vector<PhotonSpan>::const_iterator end() const { return _spans.end(); }
@@ -63,14 +64,18 @@ private:
 /// Returns the photons of a list as a copy.
 std::vector<Photon> listOf(const PhotonSpans& photons);
 
-/// Keeps the memory of lists of photons for the lists of the next pass: new memory costs as much
-/// time as all that is written to it, since the system clears it page by page. Thread safe.
+/// Keeps the memory of lists of photons for the lists of the next pass, as long as it lives itself:
+/// new memory costs as much time as all that is written to it, since the system clears it page by
+/// page. Thread safe.
 class PhotonMemory
 {
 public:
     using Block = std::unique_ptr<Photon[]>; ///< kSpanPhotons photons of any values
 
+    /// Returns a block that was given back, or a new one.
     Block take();
+
+    /// Keeps a block for take(), or frees it.
     void giveBack(Block block) noexcept;
 
 private:
@@ -96,7 +101,7 @@ public:
         return *this;
     }
 
-    std::size_t size() const;
+    std::size_t size() const; ///< number of photons
 
     /// Returns room for count more photons, at most kSpanPhotons, which push() adds.
     Photon* room(uint32_t count)

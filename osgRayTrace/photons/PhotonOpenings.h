@@ -12,9 +12,9 @@ namespace osgRayTrace::engine
 /// A sphere in a small opening, which light that views see crosses.
 struct PhotonOpening
 {
-    Vec3 centre{0.0f};
-    float radius = 0.0f;
-    Vec3 axis{0.0f}; ///< the way that this light crosses the sphere, unit
+    Vec3 centre{0.0f};   ///< in engine space
+    float radius = 0.0f; ///< [engine units]
+    Vec3 axis{0.0f};     ///< the way that this light crosses the sphere, unit
 };
 
 /// Holds openings, and sends photons through them. A photon that a matt surface scatters goes on as

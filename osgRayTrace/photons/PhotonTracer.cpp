@@ -26,7 +26,8 @@
 // Surfaces are sampled with Transport::Importance; n is the shading normal, for which factor
 // corrects. A photon goes on with probability survival (Russian roulette), so it keeps its power as
 // far as it can. At a face that is lit and lets light through all the same, half of the photons go
-// on and half stay, each with twice its power: ChunkTracer::passFaces.
+// on and half stay, each with twice its power: ChunkTracer::passFaces. Photons that have children
+// through openings, and the children, have the weights of PhotonOpenings besides.
 //
 // Photons are stored from their second surface on, as direct light is sampled from the eye's side,
 // and with the number of their edges, so that a look-up can keep to the bounces that are allowed.

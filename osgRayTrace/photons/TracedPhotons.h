@@ -32,10 +32,10 @@ inline bool operator==(const PhotonPassOptions& a, const PhotonPassOptions& b)
 /// The way of a photon from one surface, or from its light, to the next.
 struct PhotonFlight
 {
-    Vec3 from{0.0f}, to{0.0f};
+    Vec3 from{0.0f}, to{0.0f}; ///< in engine space
     Vec3 normal{0.0f};   ///< geometric, unit, of the surface at the end, on the side of the photon
     float power = 0.0f;  ///< luminance, in units of the mean of all photons as they leave lights
-    bool stored = false; ///< a photon was stored at the end
+    bool stored = false; ///< a photon was stored at the end: never straight from a light
 };
 
 /// A point of a surface at which a view looks up photons.

@@ -1,4 +1,5 @@
 // PhotonOpeningsTest.cpp - photons are sent through small openings, and their mean stays the same.
+// Layer: tests.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 #include "tests/SlitRooms.h"
