@@ -1,6 +1,7 @@
 // GridParts.cpp - the parts of a ray between volumes, and those on which an estimate of their
 // transmittance is constant. Layer: media.
 // SPDX-License-Identifier: MIT
+#include "osgRayTrace/media/FreeFlight.h"
 #include "osgRayTrace/media/GridPieces.h"
 
 namespace osgRayTrace::engine
@@ -36,7 +37,7 @@ RayPart GridRay::partBetween(float distance) const
 void GridRay::trackRatio(RayPart part, NumberStream& numbers, Vec3& left,
                          std::vector<EvenPart>& parts) const
 {
-    float depth = -std::log1p(-numbers.next()), from = part.begin;
+    float depth = depthOf(numbers.next()), from = part.begin;
     int tentative = 0;
     for (Pieces piece(*this, part.begin, part.end); piece.advance();)
     {
@@ -44,7 +45,7 @@ void GridRay::trackRatio(RayPart part, NumberStream& numbers, Vec3& left,
         while (piece.most > 0.0f && depth < piece.most * (piece.end() - t))
         {
             t += depth / piece.most;
-            depth = -std::log1p(-numbers.next());
+            depth = depthOf(numbers.next());
             const Vec3 sigma = at(t, false).sigmaT;
             if (sigma == Vec3(0.0f) && ++tentative < kMostTentative) continue;
             if (t > from) parts.push_back({{from, t}, left});

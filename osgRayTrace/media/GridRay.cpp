@@ -204,7 +204,7 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers,
     float u = numbers.next();
     const int channel = chooseChannel(pmf, u);
     Vec3 share(1.0f); // F, times a common factor
-    float depth = -std::log1p(-u);
+    float depth = depthOf(u);
     int tentative = 0;
     const Pieces::Extra extra = tentativeOnes ? Pieces::Extra::Reached : Pieces::Extra::Glowing;
     for (Pieces piece(*this, _extent.begin, _extent.end, extra); piece.advance();)
@@ -234,7 +234,7 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers,
             }
             share *= Vec3(1.0f) - real;
             share /= largestOf(share);
-            depth = -std::log1p(-numbers.next());
+            depth = depthOf(numbers.next());
         }
         depth -= piece.most * (piece.end() - t);
     }
@@ -246,7 +246,7 @@ GridFlight GridRay::flight(Vec3 pmf, NumberStream& numbers,
 GridWay GridRay::way(NumberStream& numbers) const
 {
     GridWay result;
-    float depth = -std::log1p(-numbers.next());
+    float depth = depthOf(numbers.next());
     int tentative = 0;
     for (Pieces piece(*this, _extent.begin, _extent.end, Pieces::Extra::Glowing); piece.advance();)
     {
@@ -274,7 +274,7 @@ GridWay GridRay::way(NumberStream& numbers) const
                 }
                 result.left /= kSurvival;
             }
-            depth = -std::log1p(-numbers.next());
+            depth = depthOf(numbers.next());
         }
         depth -= piece.most * (piece.end() - t);
     }
@@ -284,7 +284,7 @@ GridWay GridRay::way(NumberStream& numbers) const
 Vec3 GridRay::transmittance(float begin, float end, NumberStream& numbers) const
 {
     Vec3 left(1.0f);
-    float depth = -std::log1p(-numbers.next());
+    float depth = depthOf(numbers.next());
     int tentative = 0;
     for (Pieces piece(*this, begin, std::min(end, _extent.end)); piece.advance();)
     {
@@ -304,7 +304,7 @@ Vec3 GridRay::transmittance(float begin, float end, NumberStream& numbers) const
                 if (!(numbers.next() < kSurvival)) return Vec3(0.0f);
                 left /= kSurvival;
             }
-            depth = -std::log1p(-numbers.next());
+            depth = depthOf(numbers.next());
         }
         if (largestOf(left) < 1e-30f) return Vec3(0.0f);
         depth -= rest * (piece.end() - t);

@@ -91,6 +91,21 @@ bool waitForHelp(ServerPool& pool, const std::shared_ptr<ServerPool>& help,
     return pool.tilesTraced() > before;
 }
 
+/// Checks that an image is the same with the help of two servers, and that they do help.
+void checkServed(const std::shared_ptr<const TracedScene>& scene, const RenderOptions& options,
+                 int passes, const View& view)
+{
+    const Image alone = imageOf(scene, options, nullptr, passes, view);
+    const auto pool = std::make_shared<ServerPool>();
+    ThreadServer first{Fate{}}, second{Fate{}};
+    pool->add("first", first.connect());
+    pool->add("second", second.connect());
+    REQUIRE(waitForHelp(*pool, pool, scene, options));
+    const uint64_t before = pool->tilesTraced();
+    CHECK(imageOf(scene, options, pool, passes, view) == alone);
+    CHECK(pool->tilesTraced() > before);
+}
+
 } // namespace
 
 TEST_CASE("servers: equal images with the help of 0, 1 and 3 servers, bit by bit", "[servers]")
@@ -278,15 +293,7 @@ TEST_CASE("servers: equal images with photons, guided to what is seen", "[server
             RenderOptions options = optionsOf(kind);
             options.photons = 3000;
             options.radiusSchedule = schedule;
-            const Image alone = imageOf(scene, options, nullptr, 7);
-            const auto pool = std::make_shared<ServerPool>();
-            ThreadServer first{Fate{}}, second{Fate{}};
-            pool->add("first", first.connect());
-            pool->add("second", second.connect());
-            REQUIRE(waitForHelp(*pool, pool, scene, options));
-            const uint64_t before = pool->tilesTraced();
-            CHECK(imageOf(scene, options, pool, 7) == alone);
-            CHECK(pool->tilesTraced() > before);
+            checkServed(scene, options, 7, cornellView(70, 50));
         }
 }
 
@@ -300,14 +307,7 @@ TEST_CASE("servers: equal images with photons that are sent through openings", "
     options.photonGuiding = false;
     REQUIRE(imageOf(scene, options, nullptr, 6, view).radiance != alone.radiance); // there are some
     options.photonGuiding = true;
-    const auto pool = std::make_shared<ServerPool>();
-    ThreadServer first{Fate{}}, second{Fate{}};
-    pool->add("first", first.connect());
-    pool->add("second", second.connect());
-    REQUIRE(waitForHelp(*pool, pool, scene, options));
-    const uint64_t before = pool->tilesTraced();
-    CHECK(imageOf(scene, options, pool, 6, view) == alone);
-    CHECK(pool->tilesTraced() > before);
+    checkServed(scene, options, 6, view);
 }
 
 TEST_CASE("servers: AUTOMATIC ends photons as without them if they trace all tiles", "[servers]")
