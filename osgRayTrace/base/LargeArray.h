@@ -34,7 +34,7 @@ template <class T> class UnclearedArray
 
 public:
     UnclearedArray() = default;
-    explicit UnclearedArray(std::size_t size) : _size(size)
+    explicit UnclearedArray(std::size_t size) : _size(size), _capacity(size)
     {
         if (size == 0) return;
         const std::size_t page = size * sizeof(T) >= kHugePage ? kHugePage : 64;
@@ -44,18 +44,36 @@ public:
         if (page == kHugePage) preferHugePages(_values, bytes);
     }
     ~UnclearedArray() { freeAligned(_values); }
-    UnclearedArray(UnclearedArray&& other) noexcept
-        : _values(std::exchange(other._values, nullptr)), _size(std::exchange(other._size, 0))
-    {
-    }
+    UnclearedArray(UnclearedArray&& other) noexcept { swap(other); }
     UnclearedArray& operator=(UnclearedArray&& other) noexcept
+    {
+        swap(other);
+        return *this;
+    }
+    void swap(UnclearedArray& other) noexcept
     {
         std::swap(_values, other._values);
         std::swap(_size, other._size);
-        return *this;
+        std::swap(_capacity, other._capacity);
+    }
+
+    /// Sets the size, and leaves all values undefined. Keeps the memory unless it is too small or
+    /// more than twice what is needed. Memory in place of other memory has room for a sixteenth
+    /// more, as the size may vary a little from time to time. Throws std::bad_alloc, and the array
+    /// is then empty.
+    void reuse(std::size_t size)
+    {
+        if (size > _capacity || _capacity / 2 > size)
+        {
+            const std::size_t room = _capacity > 0 ? size / 16 : 0;
+            UnclearedArray().swap(*this); // frees first: both need not stand beside each other
+            UnclearedArray(size + room).swap(*this);
+        }
+        _size = size;
     }
 
     std::size_t size() const { return _size; }
+    std::size_t capacity() const { return _capacity; } ///< values that the memory has room for
     T* data() { return _values; }
     const T* data() const { return _values; }
     T& operator[](std::size_t i) { return _values[i]; }
@@ -66,6 +84,7 @@ private:
 
     T* _values = nullptr;
     std::size_t _size = 0;
+    std::size_t _capacity = 0;
 };
 
 } // namespace osgRayTrace::engine

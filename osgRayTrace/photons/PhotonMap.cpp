@@ -107,8 +107,9 @@ float sumOf(const FloatLanes& lanes)
 
 std::size_t PhotonMap::bytes() const
 {
-    return _columns.size() * sizeof(float) +
-           (_normal.size() + _bin.size() + _first.size()) * sizeof(uint32_t) + _denseCells.bytes();
+    return _columns.capacity() * sizeof(float) +
+           (_normal.capacity() + _bin.capacity() + _first.capacity()) * sizeof(uint32_t) +
+           _denseCells.bytes();
 }
 
 /// Neighbouring buckets that a line of cells along x is hashed to.

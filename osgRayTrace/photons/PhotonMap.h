@@ -43,7 +43,14 @@ public:
     /// sort is stable: photons of a cell keep the order of the list, so results do not depend on
     /// threads. keepBins: photon() is to return Photon::bin, too.
     PhotonMap(const PhotonSpans& photons, float cellSize, const Workers& workers,
-              bool keepBins = false);
+              bool keepBins = false)
+        : PhotonMap(photons, cellSize, workers, keepBins, PhotonMap())
+    {
+    }
+
+    /// The same in the memory of a former map: see PhotonMapMemory.
+    PhotonMap(const PhotonSpans& photons, float cellSize, const Workers& workers, bool keepBins,
+              PhotonMap former);
 
     std::size_t size() const { return _count; }
     std::size_t bytes() const;

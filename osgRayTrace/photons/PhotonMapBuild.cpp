@@ -105,10 +105,14 @@ void sortDenseCells(const PhotonSpans& photons, const std::vector<uint32_t>& hel
 } // namespace
 
 PhotonMap::PhotonMap(const PhotonSpans& photons, float cellSize, const Workers& workers,
-                     bool keepBins)
+                     bool keepBins, PhotonMap former)
     : _count(photons.size())
 {
     if (_count == 0) return;
+    _first = std::move(former._first);
+    _columns = std::move(former._columns);
+    _normal = std::move(former._normal);
+    if (keepBins) _bin = std::move(former._bin);
     const Bounds bounds = boundsOf(photons, workers);
     _low = Vec3d(bounds.low);
     _high = Vec3d(bounds.high);
@@ -263,10 +267,10 @@ void PhotonMap::sort(const PhotonSpans& photons, const Workers& workers, bool ke
     findBuckets(s, workers);
     orderByPart(s, workers);
 
-    _columns = UnclearedArray<float>(kColumns * stride());
-    _normal = UnclearedArray<uint32_t>(stride());
-    if (keepBins) _bin = UnclearedArray<uint32_t>(_count);
-    _first = UnclearedArray<uint32_t>(s.buckets + 1);
+    _columns.reuse(kColumns * stride());
+    _normal.reuse(stride());
+    if (keepBins) _bin.reuse(_count);
+    _first.reuse(s.buckets + 1);
     std::vector<std::vector<Range>> denseCells(kParts);
     workers.forEach(kParts, [&](std::size_t part) { denseCells[part] = sortPart(s, part); });
     // What lies behind the photons is written last: the first touch of each column would have the

@@ -211,9 +211,14 @@ std::shared_ptr<const PhotonPass> PhotonPasses::pass(const PhotonScene& scene, i
     else
         photons = trace(index, photonGuide.get(), openings.get(), workers);
     _first.reset();
-    auto pass = std::make_shared<PhotonPass>();
+    const auto giveBack = [memory = _mapMemory](PhotonPass* gone)
+    {
+        memory->giveBack(std::move(gone->map));
+        delete gone;
+    };
+    const std::shared_ptr<PhotonPass> pass(new PhotonPass, giveBack);
     pass->map = PhotonMap(photons.photons.spans(), cellSize, workers,
-                          scene.options.photonGuiding && index < kFirst);
+                          scene.options.photonGuiding && index < kFirst, _mapMemory->take());
     pass->volume.beams = BeamMap(photons.beams, kBeamPiece * _emitter->scene().radius);
     pass->volume.points = PointMap(photons.points);
     pass->cutWalks = photons.cutWalks;
@@ -353,7 +358,7 @@ std::size_t PhotonPasses::keptBytes() const
 std::size_t PhotonPasses::bytes() const
 {
     std::lock_guard<CheckedMutex> lock(_mutex);
-    return keptBytes();
+    return keptBytes() + _mapMemory->bytes();
 }
 
 bool PhotonPasses::keeps(int index) const

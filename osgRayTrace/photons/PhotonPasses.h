@@ -4,6 +4,7 @@
 
 #include "osgRayTrace/base/CheckedMutex.h"
 #include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/PhotonMapMemory.h"
 #include "osgRayTrace/photons/PhotonOpenings.h"
 #include "osgRayTrace/photons/PhotonTracer.h"
 #include "osgRayTrace/photons/VolumePhotons.h"
@@ -106,7 +107,7 @@ public:
     bool keeps(int index) const;
 
     uint64_t tracedRays() const; ///< rays of all passes that were traced
-    std::size_t bytes() const;   ///< memory of the maps that are kept
+    std::size_t bytes() const;   ///< memory of the maps that are kept, and that of the next map
     static constexpr std::size_t kMostBytes = std::size_t(1) << 29;
     static constexpr int kFirst = 4; ///< number of passes that each image begins with
 
@@ -146,7 +147,9 @@ private:
     std::vector<Light> _placed; ///< a copy of the lights unless they are the scene's own
     std::unique_ptr<PhotonEmitter> _emitter; ///< null: there is no scene yet
     PhotonMemory _memory;                    ///< of the photons of _first, and of a pass's
-    std::unique_ptr<TracedPhotons> _first;   ///< traced by density(), for the first pass
+    /// Holds the memory of the next map. Passes that views hold may outlive this object.
+    const std::shared_ptr<PhotonMapMemory> _mapMemory = std::make_shared<PhotonMapMemory>();
+    std::unique_ptr<TracedPhotons> _first; ///< traced by density(), for the first pass
     std::unique_ptr<PhotonDensity> _density;
     std::vector<Entry> _kept;                           ///< oldest first
     std::array<std::vector<uint32_t>, kFirst> _emitted; ///< by pass: TracedPhotons::emitted

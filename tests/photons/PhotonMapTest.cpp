@@ -5,7 +5,7 @@
 #include "tests/photons/RandomAxis.h"
 
 #include "osgRayTrace/base/Parallel.h"
-#include "osgRayTrace/photons/PhotonMap.h"
+#include "osgRayTrace/photons/PhotonMapMemory.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -47,6 +47,19 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
         sum.power += p.power;
     }
     return sum;
+}
+
+/// Returns whether two maps of as many photons hold the same ones in the same order.
+bool samePhotons(const PhotonMap& one, const PhotonMap& two)
+{
+    bool same = true;
+    for (uint32_t k = 0; k < one.size(); ++k)
+    {
+        const Photon a = one.photon(k), b = two.photon(k);
+        same &= a.position == b.position && a.power == b.power && a.wi == b.wi &&
+                a.normal == b.normal && a.edges == b.edges && a.bin == b.bin;
+    }
+    return same;
 }
 
 PhotonQuery query(Vec3 position, Vec3 normal, float radius)
@@ -232,17 +245,33 @@ TEST_CASE("photon map: a million photons in one cell", "[photons]")
     CHECK(map.bytes() < 50u * photons.size());
 }
 
+TEST_CASE("photon map: the memory of another map makes no difference", "[photons]")
+{
+    const Workers workers(2);
+    const std::vector<Photon> photons = latticePhotons(30000, Vec3(0.0f), 22);
+    const PhotonMap alone(photons, 0.1f, workers, true);
+    // The others have fewer and more photons, other cells, no bins, and dense cells.
+    for (const std::size_t count : {0, 20000, 29900, 32000, 70000})
+        for (const bool bins : {false, true})
+        {
+            CAPTURE(count, bins);
+            const std::vector<Photon> others = latticePhotons(count, Vec3(3.0f), 23);
+            PhotonMapMemory memory;
+            memory.giveBack(PhotonMap(others, bins ? 0.1f : 1.5f, workers, bins));
+            const std::size_t kept = memory.bytes();
+            const PhotonMap map(photons, 0.1f, workers, true, memory.take());
+            CHECK(memory.bytes() == 0);
+            REQUIRE(map.size() == photons.size());
+            CHECK(samePhotons(map, alone));
+            // 32,000 photons leave room for 30,000, and all of it is used.
+            if (count == 32000 && bins) CHECK(map.bytes() == kept);
+        }
+}
+
 TEST_CASE("photon map: the same for any number of threads", "[photons]")
 {
     const std::vector<Photon> photons = latticePhotons(100000, Vec3(0.0f), 21);
     const PhotonMap one(photons, 0.02f, Workers(1)), two(photons, 0.02f, Workers(2));
     REQUIRE(one.size() == photons.size());
-    bool same = true;
-    for (uint32_t k = 0; k < photons.size(); ++k)
-    {
-        const Photon a = one.photon(k), b = two.photon(k);
-        same &=
-            a.position == b.position && a.power == b.power && a.wi == b.wi && a.normal == b.normal;
-    }
-    CHECK(same);
+    CHECK(samePhotons(one, two));
 }

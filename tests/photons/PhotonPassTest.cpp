@@ -239,7 +239,7 @@ TEST_CASE("photon passes: memory of kept passes is bounded", "[photons]")
     const RenderProgress many = s.passes(12);
     CHECK(first.photonBytes > 40 * first.storedPhotons);
     CHECK(some.photonBytes > 6 * first.photonBytes);
-    // Four of the first passes and four of the last ones are kept; each pass stores about as many
-    // photons.
-    CHECK(many.photonBytes == Approx(double(some.photonBytes)).epsilon(0.05));
+    // Four of the first passes and four of the last ones are kept, and the memory for one more;
+    // each pass stores about as many photons. Memory that is used again may be a sixteenth larger.
+    CHECK(many.photonBytes == Approx(9.0 / 8.0 * double(some.photonBytes)).epsilon(0.05));
 }
