@@ -32,4 +32,11 @@ std::shared_ptr<const PhotonOpenings> findOpenings(const Sphere& scene,
                                                    const std::vector<SeenPoint>& seen,
                                                    double photons);
 
+/// Returns smaller openings within those that were found first, learnt from flights that these have
+/// sent; first itself if there are none.
+std::shared_ptr<const PhotonOpenings>
+refineOpenings(const Sphere& scene, const std::vector<PhotonFlight>& flights,
+               const std::vector<SeenPoint>& seen, double photons,
+               const std::shared_ptr<const PhotonOpenings>& first);
+
 } // namespace osgRayTrace::engine
