@@ -37,7 +37,7 @@ constexpr float kLeastWeight = 0.05f;
 constexpr std::size_t kLeastFlights = 64;
 
 /// The expected number of children of a photon, all its surfaces together, if nothing limits it.
-constexpr double kChildren = 2.0;
+constexpr double kChildren = 4.0;
 
 /// What photons at surfaces are good for: theirs and that of their later flights, by cell.
 class SurfaceUses
