@@ -152,8 +152,7 @@ double coverFlights(const Grid& grid, const std::vector<UsefulFlight>& flights,
         const auto best = cells.begin() + *place;
         if (!(best->second.use > 1e-4 * all)) break;
         PhotonOpening opening;
-        opening.centre = grid.centreOf(best->first);
-        if (rules.fits) opening.centre = middleOf(opening.centre, flights, best->second.flights);
+        opening.centre = middleOf(grid.centreOf(best->first), flights, best->second.flights);
         opening.radius = rules.radius / grid.scale;
         opening.axis = axisAround(opening.centre, kAxisRadius * opening.radius, flights);
         const float length = glm::length(opening.axis);
@@ -164,9 +163,8 @@ double coverFlights(const Grid& grid, const std::vector<UsefulFlight>& flights,
             continue;
         }
         opening.axis /= length;
-        if (rules.fits)
-            opening.axis = turnedToAll(opening.axis, opening.centre, opening.radius, flights,
-                                       best->second.flights);
+        opening.axis = turnedToAll(opening.axis, opening.centre, opening.radius, flights,
+                                   best->second.flights);
         openings.push_back(opening);
         for (uint32_t k = 0; k < flights.size(); ++k)
         {

@@ -75,13 +75,12 @@ struct CoverRules
     double leastUse;   ///< of what the best cell of a grid holds, the share that any must hold
     double wantedHeld; ///< share of the use of all flights with which there are enough
     float radius;      ///< of a sphere, over the side of its cell
-    /// True: spheres are put in the middle of the flights of their cells, and their axes are turned
-    /// until all flights go along them, also those that graze the wall around an opening.
-    bool fits;
 };
 
 /// Covers those flights that no opening holds yet by spheres around cells of a grid, each of which
-/// takes most of what is left, and marks them as held. Returns the share of the use of all flights
+/// takes most of what is left, and marks them as held. Spheres are put in the middle of the flights
+/// of their cells, and their axes are turned until all flights go along them, also those that graze
+/// the wall around an opening. Returns the share of the use of all flights
 /// that openings hold.
 double coverFlights(const Grid& grid, const std::vector<UsefulFlight>& flights,
                     const CoverRules& rules, std::vector<bool>& held,
