@@ -18,8 +18,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr uint32_t kOpeningNumbers = 0x6f70656eu; // tells these dimensions from all others
-
 /// Returns whether a surface looks up photons: one that mirrors alone, or that light passes
 /// unbent, has no use for them.
 bool storesPhotons(const Bsdf& bsdf)
@@ -205,69 +203,12 @@ void ChunkTracer::scatter(PhotonPathBlock& block, const SurfaceLanes& surface, i
     _scattered.alive &= ~(_oneSided & ~(_seen ^ _scattered.transmitted));
     FloatLanes shares;
     const LaneMask splits = _inputs.openings ? sendThroughOpenings(block, surface, bounce) : 0;
-    if (splits) _inputs.openings->weigh(_views, _scattered.wi, 0, shares);
+    if (splits) _inputs.openings->weigh(_views, _scattered.wi, FloatLanes{}, shares);
     LaneMask alive = leaveSurfaces(surface, _normal, _scattered, _roulette, block);
     for (const int i : lanesIn(alive & splits))
         setLane(block.power, i, laneOf(block.power, i) * shares[i]);
     if (_inputs.traits.media) alive = enterBodies(block, surface, alive);
     _paths.append(block, alive);
-}
-
-/// Sends children of the photons of a block through openings. Returns the lanes that may have
-/// children.
-LaneMask ChunkTracer::sendThroughOpenings(const PhotonPathBlock& block, const SurfaceLanes& surface,
-                                          int bounce)
-{
-    FloatLanes power, number, choice, u, v, unused, roulette;
-    const auto photons = static_cast<float>(_inputs.options.photons);
-    const LaneMask lanes = _diffuse & _scattered.alive;
-    power = {};
-    _views.position = _views.normal = {};
-    for (const int i : lanesIn(lanes))
-    {
-        power[i] = photons * luminanceOf(block.power.x[i], block.power.y[i], block.power.z[i]);
-        setLane(_views.position, i, laneOf(surface.position, i));
-        setLane(_views.normal, i, laneOf(_normal, i));
-    }
-    _inputs.openings->look(power, lanes, _views);
-    if (!_views.lanes) return 0;
-    const uint32_t seed = dimension(hash(kOpeningNumbers, static_cast<uint32_t>(bounce)));
-    photonPoints(block.photon, hash(seed, 0), number, choice);
-    LaneMask sent = 0;
-    for (const int i : lanesIn(_views.lanes))
-        sent |= static_cast<LaneMask>(number[i] < _views.children[i]) << i;
-    if (!sent) return _views.lanes;
-    photonPoints(block.photon, hash(seed, 1), u, v);
-    photonPoints(block.photon, hash(seed, 2), unused, roulette);
-    Scattered children;
-    children.wi = _scattered.wi;
-    children.weight = _scattered.weight;
-    children.alive = sent;
-    children.transmitted = children.mirrored = 0;
-    _inputs.openings->sample(_views, choice, u, v, sent, children.wi);
-    FloatLanes shares;
-    _inputs.openings->weigh(_views, children.wi, 1, shares);
-    PhotonPathBlock copy = block;
-    LaneMask alive = leaveSurfaces(surface, _normal, children, roulette, copy);
-    for (const int i : lanesIn(alive))
-    {
-        setLane(copy.power, i, laneOf(copy.power, i) * shares[i]);
-        if (!(shares[i] > 0.0f)) alive &= ~(1u << i); // below the horizon of the normal
-    }
-    _sent.append(copy, alive);
-    return _views.lanes;
-}
-
-/// Records how the photons of a block have come to their surfaces.
-void ChunkTracer::recordFlights(const PhotonPathBlock& block, const SurfaceLanes& surface,
-                                LaneMask stored)
-{
-    const auto photons = static_cast<float>(_inputs.options.photons);
-    for (const int i : lanesIn(surface.hits))
-        _chunk.flights.push_back({laneOf(block.origin, i), laneOf(surface.position, i),
-                                  laneOf(surface.geometricNormal, i),
-                                  photons * luminance(laneOf(block.power, i)),
-                                  ((stored >> i) & 1u) != 0});
 }
 
 /// Sorts the lanes by what their surfaces are; returns those that photons are stored at.

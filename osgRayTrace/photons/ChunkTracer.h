@@ -70,9 +70,9 @@ public:
     ChunkTracer(const ChunkInputs& inputs, PhotonChunk& chunk)
         : _inputs(inputs),
           _chunk(chunk),
-          _paths(kPhotonChunk, inputs.traits.media),
-          _sent(0, false),
-          _arriving(0, false)
+          _paths(kPhotonChunk, inputs.traits.media, inputs.recordsFlights),
+          _sent(0, false, inputs.recordsFlights),
+          _arriving(0, false, inputs.recordsFlights)
     {
     }
 
@@ -157,10 +157,13 @@ private:
     void leaveBodies(PhotonPathBlock& block, const BodyWalks& walks, LaneMask lanes,
                      SurfaceLanes& surface);
 
-    void recordFlights(const PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask stored);
+    void recordFlights(PhotonPathBlock& block, const SurfaceLanes& surface, LaneMask stored);
     void scatter(PhotonPathBlock& block, const SurfaceLanes& surface, int bounce);
     LaneMask sendThroughOpenings(const PhotonPathBlock& block, const SurfaceLanes& surface,
                                  int bounce);
+    LaneMask chooseChildren(const UintLanes& photons, uint32_t seed, Vec3Lanes& wi,
+                            FloatLanes& weights);
+    void sendFromLights(PhotonPathBlock& block, LaneMask lanes);
     void scatterOne(const PhotonPathBlock& block, const SurfaceLanes& surface, int i,
                     bool mustMirror);
     MaterialPoint pointAt(const SurfaceLanes& surface, int i) const;

@@ -3,9 +3,10 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/photons/OpeningFinder.h"
 
+#include "osgRayTrace/photons/OpeningCover.h"
+
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace osgRayTrace::engine
 {
@@ -13,308 +14,184 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Cells along a side of the cube around the scene: of surfaces, of places that flights begin at,
-/// and of openings, of which the finest is tried first.
-constexpr uint32_t kSurfaceCells = 32, kStartCells = 16;
-constexpr uint32_t kOpeningCells[] = {64, 32};
+/// Cells along a side of the cube around the scene: of places that are looked at, of the surfaces
+/// for which the use of photons is summed up, and of openings, the finest first: those of the first
+/// search, of which one size is taken, and the smaller ones, each for what finer ones leave.
+constexpr uint32_t kSeenCells = 32, kUseCells = 16;
+constexpr uint32_t kFirstCells[] = {64, 32}, kFineCells[] = {256, 128, 64};
 
-constexpr std::size_t kMostOpenings = 64;
+constexpr CoverRules kFirstRules{64, 0.25, 0.998, 1.0f};
+constexpr CoverRules kFineRules{64, 0.02, 0.999, 1.3f};
 
-/// A flight is found through openings if it is so many times as useful as flights from around its
-/// start are in the mean.
-constexpr double kRare = 8.0;
+/// Openings hold at least this share of the use of the flights that enter.
+constexpr double kFirstHeld = 0.75, kFineHeld = 0.9;
 
-/// Openings hold at least this share of the use of such flights.
-constexpr double kLeastHeld = 0.75, kWantedHeld = 0.998;
-
-/// The cell of an opening holds at least this share of what the cell of the best one holds.
-constexpr double kLeastUse = 0.15;
-
-/// The radius of an opening over the side of its cell: the sphere holds the cell, and a margin.
-constexpr float kOpeningRadius = 1.0f;
-
-/// Flights within so many radii tell the axis of an opening.
-constexpr float kAxisRadius = 4.0f;
+/// The expected number of children of a photon, all its surfaces together, if nothing limits it.
+constexpr double kFirstChildren = 1.0, kFineChildren = 4.0;
 
 /// Flights from which openings are found, at least.
 constexpr std::size_t kLeastFlights = 16;
 
-/// The expected number of children of a photon, all its surfaces together, if nothing limits it.
-constexpr double kChildren = 1.0;
+/// Openings are small if no more than these shares of all flights go through them, and of the power
+/// of all flights is that of those that enter.
+constexpr double kMostThrough = 0.035, kMostEntering = 0.005;
 
-/// One of so many flights tells the flux towards the openings.
-constexpr std::size_t kFluxStride = 8;
+/// A flight enters if its end is so many times as useful as its start.
+constexpr double kEntry = 8.0;
 
-/// Openings are small if no more than this share of all flights goes through them.
-constexpr double kMostThrough = 0.035;
+/// Of the mean use of the ends of entering flights, the share that any must have. The rest ends in
+/// cells that hold surfaces on both sides of a wall.
+constexpr double kLeastUse = 0.2;
 
-/// The cube around a scene, cut into cells.
-struct Grid
+/// Of the weight of the best opening, the share that any must have.
+constexpr float kLeastWeight = 0.05f;
+
+/// What photons at surfaces are good for: theirs and that of their later flights, by cell.
+class SurfaceUses
 {
-    Grid(const Sphere& scene, uint32_t cells)
-        : low(scene.centre - Vec3(scene.radius)),
-          scale(static_cast<float>(cells) / (2.0f * scene.radius)),
-          count(cells)
+public:
+    SurfaceUses(const Sphere& scene, const std::vector<PhotonFlight>& flights,
+                const std::vector<SeenPoint>& seen)
+        : _grid(scene, kUseCells), _uses(_grid.surfaces()), _powers(_grid.surfaces())
     {
-    }
-
-    uint32_t along(float x) const
-    {
-        const float cell = x * scale;
-        if (!(cell > 0.0f)) return 0;
-        return cell < static_cast<float>(count) ? static_cast<uint32_t>(cell) : count - 1;
-    }
-    uint32_t cellOf(Vec3 p) const
-    {
-        return (along(p.z - low.z) * count + along(p.y - low.y)) * count + along(p.x - low.x);
-    }
-    Vec3 centreOf(uint32_t cell) const
-    {
-        const Vec3 index(static_cast<float>(cell % count), static_cast<float>(cell / count % count),
-                         static_cast<float>(cell / count / count));
-        return low + (index + Vec3(0.5f)) / scale;
-    }
-
-    Vec3 low;
-    float scale;
-    uint32_t count;
-};
-
-uint32_t octantOf(Vec3 n)
-{
-    return (n.x < 0.0f) | (n.y < 0.0f) << 1 | (n.z < 0.0f) << 2;
-}
-
-uint32_t surfaceCell(const Grid& grid, Vec3 p, Vec3 n)
-{
-    return grid.cellOf(p) * 8 + octantOf(n);
-}
-
-struct UsefulFlight
-{
-    const PhotonFlight* flight;
-    double use;
-};
-
-/// Limits the use of flights to that above which half of all use is: a few flights to places that
-/// few have found would count for all others.
-void limitUses(std::vector<UsefulFlight>& flights)
-{
-    std::vector<double> uses;
-    double all = 0.0, sum = 0.0;
-    for (const UsefulFlight& flight : flights)
-    {
-        uses.push_back(flight.use);
-        all += flight.use;
-    }
-    std::sort(uses.begin(), uses.end());
-    double most = 0.0;
-    for (auto use = uses.rbegin(); use != uses.rend() && sum < 0.5 * all; ++use)
-        sum += most = *use;
-    for (UsefulFlight& flight : flights)
-        flight.use = std::min(flight.use, most);
-}
-
-/// Returns the flights that are much more useful than others from around their start. A further
-/// photon takes the more off the relative error of a cell, the fewer there are.
-std::vector<UsefulFlight> rareFlights(const Sphere& scene, const std::vector<PhotonFlight>& flights,
-                                      const std::vector<SeenPoint>& seen)
-{
-    const Grid surfaces(scene, kSurfaceCells), starts(scene, kStartCells);
-    std::vector<float> looks(std::size_t(8) * kSurfaceCells * kSurfaceCells * kSurfaceCells);
-    std::vector<float> hits(looks.size());
-    for (const SeenPoint& point : seen)
-        ++looks[surfaceCell(surfaces, point.position, point.normal)];
-    for (const PhotonFlight& flight : flights)
-        if (flight.stored) ++hits[surfaceCell(surfaces, flight.to, flight.normal)];
-    const auto useOf = [&](const PhotonFlight& flight)
-    {
-        if (!flight.stored) return 0.0;
-        const uint32_t cell = surfaceCell(surfaces, flight.to, flight.normal);
-        const double dense = static_cast<double>(hits[cell]) + 4.0;
-        return static_cast<double>(looks[cell]) / (dense * dense);
-    };
-    std::vector<double> uses(std::size_t(kStartCells) * kStartCells * kStartCells);
-    std::vector<double> counts(uses.size());
-    for (const PhotonFlight& flight : flights)
-    {
-        const uint32_t start = starts.cellOf(flight.from);
-        uses[start] += useOf(flight);
-        counts[start] += 1.0;
-    }
-    std::vector<UsefulFlight> rare;
-    for (const PhotonFlight& flight : flights)
-    {
-        const double use = useOf(flight);
-        const uint32_t start = starts.cellOf(flight.from);
-        if (use > kRare * uses[start] / counts[start]) rare.push_back({&flight, use});
-    }
-    limitUses(rare);
-    return rare;
-}
-
-/// Calls f with the cells that a flight crosses, in order.
-template <class F> void forCells(const Grid& grid, const PhotonFlight& flight, const F& f)
-{
-    const Vec3 way = flight.to - flight.from;
-    const float length = glm::length(way) * grid.scale;
-    const int steps = static_cast<int>(std::min(length * 4.0f, 4096.0f)) + 1;
-    uint32_t last = ~0u;
-    for (int s = 0; s <= steps; ++s)
-    {
-        const uint32_t cell =
-            grid.cellOf(flight.from + way * (static_cast<float>(s) / static_cast<float>(steps)));
-        if (cell != last) f(cell);
-        last = cell;
-    }
-}
-
-/// Returns whether a flight crosses a sphere.
-bool crosses(Vec3 centre, float radius, const PhotonFlight& flight)
-{
-    const Vec3 d = centre - flight.from, way = flight.to - flight.from;
-    const float along = glm::dot(d, way) / glm::dot(way, way);
-    if (!(along > 0.0f && along < 1.0f)) return false;
-    const Vec3 off = d - way * along;
-    return glm::dot(off, off) <= radius * radius;
-}
-
-bool crosses(const PhotonOpening& opening, const PhotonFlight& flight)
-{
-    return glm::dot(opening.centre - flight.from, opening.axis) > 0.0f &&
-           crosses(opening.centre, opening.radius, flight);
-}
-
-/// Returns the mean way of the flights around a place, of any length.
-Vec3 axisAround(Vec3 centre, float radius, const std::vector<UsefulFlight>& flights)
-{
-    Vec3 sum(0.0f);
-    for (const UsefulFlight& useful : flights)
-        if (crosses(centre, radius, *useful.flight))
-            sum += static_cast<float>(useful.use) *
-                   glm::normalize(useful.flight->to - useful.flight->from);
-    return sum;
-}
-
-/// Covers flights by spheres around cells of a grid, each of which takes most of what is left.
-/// Returns the share of the use that they hold.
-double coverFlights(const Grid& grid, const std::vector<UsefulFlight>& flights,
-                    std::vector<PhotonOpening>& openings)
-{
-    struct Cell
-    {
-        std::vector<uint32_t> flights;
-        double use = 0.0; ///< of the flights that no opening holds yet
-        double all = 0.0; ///< of all flights
-    };
-    std::unordered_map<uint32_t, uint32_t> indices;
-    std::vector<std::pair<uint32_t, Cell>> cells;
-    double all = 0.0;
-    for (uint32_t k = 0; k < flights.size(); ++k)
-    {
-        all += flights[k].use;
-        forCells(grid, *flights[k].flight,
-                 [&](uint32_t number)
-                 {
-                     const auto place =
-                         indices.emplace(number, static_cast<uint32_t>(cells.size()));
-                     if (place.second) cells.push_back({number, {}});
-                     Cell& cell = cells[place.first->second].second;
-                     cell.flights.push_back(k);
-                     cell.use += flights[k].use;
-                     cell.all += flights[k].use;
-                 });
-    }
-    double most = 0.0;
-    for (const auto& cell : cells)
-        most = std::max(most, cell.second.all);
-    std::vector<uint32_t> major; // the cells that may have openings
-    for (uint32_t k = 0; k < cells.size(); ++k)
-        if (cells[k].second.all >= kLeastUse * most) major.push_back(k);
-    std::vector<bool> held(flights.size());
-    double sum = 0.0;
-    while (!major.empty() && openings.size() < kMostOpenings && sum < kWantedHeld * all)
-    {
-        const auto place = std::max_element(major.begin(), major.end(),
-                                            [&](uint32_t a, uint32_t b)
-                                            { return cells[a].second.use < cells[b].second.use; });
-        const auto best = cells.begin() + *place;
-        if (!(best->second.use > 1e-4 * all)) break;
-        PhotonOpening opening;
-        opening.centre = grid.centreOf(best->first);
-        opening.radius = kOpeningRadius / grid.scale;
-        opening.axis = axisAround(opening.centre, kAxisRadius * opening.radius, flights);
-        const float length = glm::length(opening.axis);
-        best->second.use = 0.0;
-        if (!(length > 0.0f))
+        const Grid places(scene, kSeenCells);
+        std::vector<float> looks(places.surfaces()), hits(places.surfaces());
+        for (const SeenPoint& point : seen)
+            ++looks[places.surfaceOf(point.position, point.normal)];
+        const double unit = meanPower(flights);
+        for (const PhotonFlight& flight : flights)
+            if (flight.stored)
+                hits[places.surfaceOf(flight.to, flight.normal)] +=
+                    flight.power / static_cast<float>(unit);
+        // A further photon takes the more off the relative error of a place, the fewer there are.
+        std::vector<double> uses(flights.size()); // of a flight and of all that follow
+        for (std::size_t k = flights.size(); k-- > 0;)
         {
-            major.erase(place);
-            continue;
-        }
-        opening.axis /= length;
-        openings.push_back(opening);
-        for (uint32_t k = 0; k < flights.size(); ++k)
-        {
-            if (held[k] || !crosses(opening, *flights[k].flight)) continue;
-            held[k] = true;
-            sum += flights[k].use;
-            forCells(grid, *flights[k].flight,
-                     [&](uint32_t number) { cells[indices[number]].second.use -= flights[k].use; });
+            const PhotonFlight& flight = flights[k];
+            const auto power = static_cast<double>(flight.power);
+            if (flight.stored)
+            {
+                const uint32_t place = places.surfaceOf(flight.to, flight.normal);
+                const double dense = static_cast<double>(hits[place]) + 4.0;
+                uses[k] += power * static_cast<double>(looks[place]) / (dense * dense);
+            }
+            if (flight.before != kInvalid) uses[flight.before] += uses[k];
+            const uint32_t cell = _grid.surfaceOf(flight.to, flight.normal);
+            _uses[cell] += uses[k];
+            _powers[cell] += power;
+            _allUses += uses[k];
+            _allPowers += power;
         }
     }
-    return sum / all;
-}
 
-struct OpeningFlux
-{
-    double towards = 0.0; ///< what surfaces send towards openings, as PhotonOpenings::look tells it
-    double through = 0.0; ///< share of the flights that crosses openings
+    /// Returns the use of a photon at the end of a flight, over its power.
+    double at(const PhotonFlight& flight) const
+    {
+        const uint32_t cell = _grid.surfaceOf(flight.to, flight.normal);
+        return _uses[cell] / _powers[cell];
+    }
+    double mean() const { return _allUses / _allPowers; }
+
+private:
+    /// Returns the mean power of photons as they leave lights.
+    static double meanPower(const std::vector<PhotonFlight>& flights)
+    {
+        double sum = 0.0, count = 0.0;
+        for (const PhotonFlight& flight : flights)
+        {
+            if (flight.before != kInvalid) continue;
+            sum += static_cast<double>(flight.power);
+            count += 1.0;
+        }
+        return sum > 0.0 ? sum / count : 1.0;
+    }
+
+    Grid _grid;
+    std::vector<double> _uses, _powers; ///< by cell
+    double _allUses = 0.0, _allPowers = 0.0;
 };
 
-OpeningFlux fluxOf(const std::vector<PhotonOpening>& openings,
-                   const std::vector<PhotonFlight>& flights)
+/// Returns the flights from where photons are of little use to where they are of much.
+std::vector<UsefulFlight> enteringFlights(const Sphere& scene,
+                                          const std::vector<PhotonFlight>& flights,
+                                          const std::vector<SeenPoint>& seen)
 {
-    OpeningFlux result;
-    const PhotonOpenings plain(openings, 1.0f);
-    for (std::size_t first = 0; first < flights.size(); first += kLanes * kFluxStride)
+    const SurfaceUses uses(scene, flights, seen);
+    std::vector<UsefulFlight> entering;
+    double sum = 0.0, squares = 0.0;
+    for (const PhotonFlight& flight : flights)
     {
-        PhotonOpenings::Views views = {};
-        FloatLanes power = {};
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const std::size_t k = first + static_cast<std::size_t>(i) * kFluxStride;
-            if (k >= flights.size()) break;
-            setLane(views.position, i, flights[k].to);
-            setLane(views.normal, i, flights[k].normal);
-            power[i] = flights[k].power;
-            result.through += std::any_of(openings.begin(), openings.end(),
-                                          [&](const PhotonOpening& opening)
-                                          { return crosses(opening, flights[k]); });
-        }
-        plain.look(power, kAllLanes, views);
-        for (int i = 0; i < kLanes; ++i)
-            result.towards += static_cast<double>(views.flux[i] * power[i]);
+        const double use = uses.at(flight), power = static_cast<double>(flight.power);
+        const double before =
+            flight.before == kInvalid ? uses.mean() : uses.at(flights[flight.before]);
+        if (!(use > kEntry * before && before < kEntry * uses.mean())) continue;
+        entering.push_back({&flight, power * use});
+        sum += power * use;
+        squares += power * use * use;
     }
-    result.towards *= static_cast<double>(kFluxStride);
-    result.through *= static_cast<double>(kFluxStride) / static_cast<double>(flights.size());
-    return result;
+    const double least = kLeastUse * squares / sum;
+    const auto isPoor = [&](const UsefulFlight& useful)
+    { return !(useful.use > least * static_cast<double>(useful.flight->power)); };
+    entering.erase(std::remove_if(entering.begin(), entering.end(), isPoor), entering.end());
+    return entering;
+}
+
+/// Sets the weights of openings and drops those that bring little. Of a sphere's cone one does not
+/// know which part sees through; the least variance for so many children is then had by densities
+/// in proportion to the root of the share that gets through.
+void weighOpenings(const std::vector<UsefulFlight>& entering,
+                   const std::vector<PhotonFlight>& flights, std::vector<PhotonOpening>& openings)
+{
+    std::vector<double> through(openings.size());
+    for (const UsefulFlight& useful : entering)
+        for (std::size_t k = 0; k < openings.size(); ++k)
+            if (crosses(openings[k], *useful.flight))
+            {
+                through[k] += static_cast<double>(useful.flight->power);
+                break;
+            }
+    float best = 0.0f;
+    for (std::size_t k = 0; k < openings.size(); ++k)
+    {
+        const double towards = fluxOf({openings[k]}, flights).towards;
+        openings[k].weight =
+            towards > 0.0 ? static_cast<float>(std::sqrt(through[k] / towards)) : 0.0f;
+        best = std::max(best, openings[k].weight);
+    }
+    const auto isPoor = [&](const PhotonOpening& opening)
+    { return !(opening.weight > kLeastWeight * best); };
+    openings.erase(std::remove_if(openings.begin(), openings.end(), isPoor), openings.end());
+    for (PhotonOpening& opening : openings)
+        opening.weight /= best;
 }
 
 } // namespace
 
+/// Returns the share of the power of all flights that entering ones have.
+static double enteringShare(const std::vector<UsefulFlight>& entering,
+                            const std::vector<PhotonFlight>& flights)
+{
+    double sum = 0.0, all = 0.0;
+    for (const UsefulFlight& useful : entering)
+        sum += static_cast<double>(useful.flight->power);
+    for (const PhotonFlight& flight : flights)
+        all += static_cast<double>(flight.power);
+    return sum / all;
+}
+
 double seenShare(const Sphere& scene, const std::vector<PhotonFlight>& flights,
                  const std::vector<SeenPoint>& seen)
 {
-    const Grid surfaces(scene, kSurfaceCells);
-    std::vector<bool> isSeen(std::size_t(8) * kSurfaceCells * kSurfaceCells * kSurfaceCells);
+    const Grid surfaces(scene, kSeenCells);
+    std::vector<bool> isSeen(surfaces.surfaces());
     for (const SeenPoint& point : seen)
-        isSeen[surfaceCell(surfaces, point.position, point.normal)] = true;
+        isSeen[surfaces.surfaceOf(point.position, point.normal)] = true;
     double count = 0.0, found = 0.0;
     for (const PhotonFlight& flight : flights)
     {
         if (!flight.stored) continue;
         count += 1.0;
-        found += isSeen[surfaceCell(surfaces, flight.to, flight.normal)];
+        found += isSeen[surfaces.surfaceOf(flight.to, flight.normal)];
     }
     return count > 0.0 ? found / count : 1.0;
 }
@@ -324,21 +201,43 @@ std::shared_ptr<const PhotonOpenings> findOpenings(const Sphere& scene,
                                                    const std::vector<SeenPoint>& seen,
                                                    double photons)
 {
-    const std::vector<UsefulFlight> rare = rareFlights(scene, flights, seen);
-    if (rare.size() < kLeastFlights) return nullptr;
+    const std::vector<UsefulFlight> entering = enteringFlights(scene, flights, seen);
+    if (entering.size() < kLeastFlights || enteringShare(entering, flights) > kMostEntering)
+        return nullptr;
     std::vector<PhotonOpening> openings;
     double held = 0.0;
-    for (const uint32_t cells : kOpeningCells)
+    for (const uint32_t cells : kFirstCells)
     {
         openings.clear();
-        held = coverFlights(Grid(scene, cells), rare, openings);
-        if (held >= kLeastHeld) break;
+        std::vector<bool> isHeld(entering.size());
+        held = coverFlights(Grid(scene, cells), entering, kFirstRules, isHeld, openings);
+        if (held >= kFirstHeld) break;
     }
-    if (held < kLeastHeld) return nullptr;
+    if (held < kFirstHeld) return nullptr;
     const OpeningFlux flux = fluxOf(openings, flights);
     if (!(flux.towards > 0.0) || flux.through > kMostThrough) return nullptr;
     return std::make_shared<const PhotonOpenings>(
-        std::move(openings), static_cast<float>(kChildren * photons / flux.towards));
+        std::move(openings), static_cast<float>(kFirstChildren * photons / flux.towards));
+}
+
+std::shared_ptr<const PhotonOpenings>
+refineOpenings(const Sphere& scene, const std::vector<PhotonFlight>& flights,
+               const std::vector<SeenPoint>& seen, double photons,
+               const std::shared_ptr<const PhotonOpenings>& first)
+{
+    const std::vector<UsefulFlight> entering = enteringFlights(scene, flights, seen);
+    if (entering.size() < kLeastFlights) return first;
+    std::vector<PhotonOpening> openings;
+    std::vector<bool> isHeld(entering.size());
+    double held = 0.0;
+    for (const uint32_t cells : kFineCells)
+        held = coverFlights(Grid(scene, cells), entering, kFineRules, isHeld, openings);
+    if (held < kFineHeld) return first;
+    weighOpenings(entering, flights, openings);
+    const OpeningFlux flux = fluxOf(openings, flights);
+    if (!(flux.towards > 0.0)) return first;
+    return std::make_shared<const PhotonOpenings>(
+        std::move(openings), static_cast<float>(kFineChildren * photons / flux.towards));
 }
 
 } // namespace osgRayTrace::engine

@@ -13,12 +13,13 @@
 namespace osgRayTrace::engine
 {
 
-// Views tell where they look up photons, and flights tell how photons have come there. A flight is
-// as useful as its end: the more a view looks there, and the fewer photons end there. Most flights
-// to places behind a small opening begin where flights are hardly ever useful. Those flights are
-// kept, and spheres are put where they come together, as long as few spheres hold most of them.
-// Nothing is found where most photons are useful, as in a room with the camera, and where useful
-// flights do not come together.
+// Views tell where they look up photons, and flights tell how photons have come there. A photon at
+// a surface is as useful as the place, and as the places to which it goes on: the more a view looks
+// there, and the fewer photons end there. Summed up by cells of surfaces, that tells flights that
+// enter, from where photons are of little use to where they are of much. Spheres are put where
+// these come together, as long as few spheres hold most of them. Nothing is found where most
+// photons are useful, as in a room with the camera, and where entering flights do not come
+// together.
 
 /// Returns the share of the stored flights that end near seen points.
 double seenShare(const Sphere& scene, const std::vector<PhotonFlight>& flights,
@@ -31,5 +32,12 @@ std::shared_ptr<const PhotonOpenings> findOpenings(const Sphere& scene,
                                                    const std::vector<PhotonFlight>& flights,
                                                    const std::vector<SeenPoint>& seen,
                                                    double photons);
+
+/// Returns smaller openings within those that were found first, learnt from flights that these have
+/// sent; first itself if there are none.
+std::shared_ptr<const PhotonOpenings>
+refineOpenings(const Sphere& scene, const std::vector<PhotonFlight>& flights,
+               const std::vector<SeenPoint>& seen, double photons,
+               const std::shared_ptr<const PhotonOpenings>& first);
 
 } // namespace osgRayTrace::engine

@@ -17,7 +17,7 @@ struct Cone
 {
     float distance2;  ///< from the point to the centre [length^2]
     float above;      ///< along the normal
-    float solidAngle; ///< [sr]; 0 unless used
+    float solidAngle; ///< times the opening's weight [sr]; 0 unless used
     uint32_t used;    ///< mask: light that comes from the point may go through the opening
 };
 
@@ -25,12 +25,13 @@ struct Cone
 struct PlainOpening
 {
     PlainVec3 centre, axis;
-    float radius2;
+    float radius2, weight;
 };
 
 OSGRAYTRACE_INLINE PlainOpening plainOpening(const PhotonOpening& opening)
 {
-    return {plainOf(opening.centre), plainOf(opening.axis), opening.radius * opening.radius};
+    return {plainOf(opening.centre), plainOf(opening.axis), opening.radius * opening.radius,
+            opening.weight};
 }
 
 OSGRAYTRACE_INLINE Cone coneOf(const PlainOpening& opening, PlainVec3 at, PlainVec3 normal)
@@ -43,7 +44,8 @@ OSGRAYTRACE_INLINE Cone coneOf(const PlainOpening& opening, PlainVec3 at, PlainV
     const float above = dot(d, normal);
     const uint32_t used =
         maskOf(dot(d, opening.axis) > 0.0f) & maskOf(above > 0.0f) & maskOf(sin2 < 0.9f);
-    return {distance2, above, select(used, 2.0f * kPi * oneMinusCosine, 0.0f), used};
+    return {distance2, above, select(used, 2.0f * kPi * opening.weight * oneMinusCosine, 0.0f),
+            used};
 }
 
 } // namespace
@@ -84,7 +86,8 @@ void PhotonOpenings::look(const FloatLanes& power, LaneMask lanes, Views& views)
 
 OSGRAYTRACE_KERNEL
 static void chooseOpening(const PhotonOpening& opening, const PhotonOpenings::Views& views,
-                          FloatLanes& left, Vec3Lanes& d, FloatLanes& solidAngle)
+                          FloatLanes& left, Vec3Lanes& d, FloatLanes& solidAngle,
+                          FloatLanes& weight)
 {
     const PlainOpening plain = plainOpening(opening);
     OSGRAYTRACE_SIMD
@@ -96,28 +99,31 @@ static void chooseOpening(const PhotonOpening& opening, const PhotonOpenings::Vi
         d.y[i] = select(chosen, plain.centre.y - views.position.y[i], d.y[i]);
         d.z[i] = select(chosen, plain.centre.z - views.position.z[i], d.z[i]);
         solidAngle[i] = select(chosen, cone.solidAngle, solidAngle[i]);
+        weight[i] = select(chosen, plain.weight, weight[i]);
         left[i] -= cone.solidAngle;
     }
 }
 
 void PhotonOpenings::sample(const Views& views, const FloatLanes& choice, const FloatLanes& u,
-                            const FloatLanes& v, LaneMask lanes, Vec3Lanes& wi) const
+                            const FloatLanes& v, LaneMask lanes, Vec3Lanes& wi,
+                            FloatLanes& chosen) const
 {
+    chosen = {};
     FloatLanes left, solidAngle = {};
     Vec3Lanes d = {};
     for (int i = 0; i < kLanes; ++i)
         left[i] = choice[i] * views.solidAngle[i];
     for (const PhotonOpening& opening : _openings)
-        chooseOpening(opening, views, left, d, solidAngle);
+        chooseOpening(opening, views, left, d, solidAngle, chosen);
     for (const int i : lanesIn(lanes))
         setLane(wi, i,
                 turnedTo(glm::normalize(laneOf(d, i)),
-                         squareToCone({u[i], v[i]}, solidAngle[i] / (2.0f * kPi))));
+                         squareToCone({u[i], v[i]}, solidAngle[i] / (2.0f * kPi * chosen[i]))));
 }
 
 OSGRAYTRACE_KERNEL
-static void countOpening(const PhotonOpening& opening, const PhotonOpenings::Views& views,
-                         const Vec3Lanes& wi, UintLanes& count)
+static void addMet(const PhotonOpening& opening, const PhotonOpenings::Views& views,
+                   const Vec3Lanes& wi, FloatLanes& met)
 {
     const PlainOpening plain = plainOpening(opening);
     OSGRAYTRACE_SIMD
@@ -127,26 +133,25 @@ static void countOpening(const PhotonOpening& opening, const PhotonOpenings::Vie
         const float along = dot(plain.centre - plainOf(views.position, i), plainOf(wi, i));
         const uint32_t meets = maskOf(cone.distance2 - along * along <= plain.radius2) &
                                maskOf(along > 0.0f) & cone.used;
-        count[i] += meets & 1u;
+        met[i] += select(meets, plain.weight, 0.0f);
     }
 }
 
-void PhotonOpenings::weigh(const Views& views, const Vec3Lanes& wi, uint32_t least,
+void PhotonOpenings::weigh(const Views& views, const Vec3Lanes& wi, const FloatLanes& least,
                            FloatLanes& weights) const
 {
-    UintLanes count = {};
+    FloatLanes met = {};
     Vec3Lanes used = {}; // numbers of other lanes may be of any kind, and slow
     for (const int i : lanesIn(views.lanes))
         setLane(used, i, laneOf(wi, i));
     for (const PhotonOpening& opening : _openings)
-        countOpening(opening, views, used, count);
+        addMet(opening, views, used, met);
     for (int i = 0; i < kLanes; ++i)
     {
         weights[i] = 1.0f;
         if (!((views.lanes >> i) & 1u)) continue;
         const float pdf = kInvPi * std::max(glm::dot(laneOf(views.normal, i), laneOf(wi, i)), 0.0f);
-        const float through =
-            views.children[i] * static_cast<float>(std::max(count[i], least)) / views.solidAngle[i];
+        const float through = views.children[i] * std::max(met[i], least[i]) / views.solidAngle[i];
         weights[i] = through > 0.0f ? pdf / (pdf + through) : 1.0f;
     }
 }

@@ -15,6 +15,7 @@ struct PhotonOpening
     Vec3 centre{0.0f};   ///< in engine space
     float radius = 0.0f; ///< [engine units]
     Vec3 axis{0.0f};     ///< the way that this light crosses the sphere, unit
+    float weight = 1.0f; ///< density of children that are sent there, over that of others
 };
 
 /// Holds openings, and sends photons through them. A photon that a matt surface scatters goes on as
@@ -24,9 +25,10 @@ struct PhotonOpening
 ///
 ///   weight(wi) = pdfW / (pdfW + n pdfW_openings),    pdfW = cosTheta / pi
 ///
-/// where pdfW_openings is uniform over the cones that hold the openings, and n is in proportion to
-/// the flux that crosses them if nothing is in the way. So all children have about the same power.
-/// Transport of neutrons knows such spheres as DXTRAN [Booth85]. Openings never change.
+/// where pdfW_openings is uniform over each of the cones that hold the openings, in proportion to
+/// their weights, and n is in proportion to the weighted flux that crosses them if nothing is in
+/// the way. So all children through openings of a weight have about the same power. Transport of
+/// neutrons knows such spheres as DXTRAN [Booth85]. Openings never change.
 class PhotonOpenings
 {
 public:
@@ -41,23 +43,25 @@ public:
     struct Views
     {
         Vec3Lanes position, normal; ///< normal: unit
-        FloatLanes solidAngle;      ///< sum over the openings in front [sr]
-        FloatLanes flux;            ///< share of the reflected light that goes towards them
-        FloatLanes children;        ///< number of children in the mean, 1 at most
-        LaneMask lanes = 0;         ///< lanes that see openings
+        FloatLanes solidAngle;      ///< sum over the openings in front, times their weights [sr]
+        FloatLanes flux; ///< share of the reflected light towards each, times weights, summed up
+        FloatLanes children; ///< number of children in the mean, 1 at most
+        LaneMask lanes = 0;  ///< lanes that see openings
     };
 
     /// Sets what the positions and normals of some lanes see. power: luminance of the photon's
     /// power times the number of photons of the pass. Numbers of all lanes must be finite.
     void look(const FloatLanes& power, LaneMask lanes, Views& views) const;
 
-    /// Samples directions through openings, from numbers in [0,1), in lanes of views.lanes.
+    /// Samples directions through openings, from numbers in [0,1), in lanes of views.lanes. chosen:
+    /// the weights of the openings.
     void sample(const Views& views, const FloatLanes& choice, const FloatLanes& u,
-                const FloatLanes& v, LaneMask lanes, Vec3Lanes& wi) const;
+                const FloatLanes& v, LaneMask lanes, Vec3Lanes& wi, FloatLanes& chosen) const;
 
-    /// Sets the weights of directions, 1 where no opening is met. least: number of openings that a
-    /// direction is known to meet.
-    void weigh(const Views& views, const Vec3Lanes& wi, uint32_t least, FloatLanes& weights) const;
+    /// Sets the weights of directions, 1 where no opening is met. least: of the openings that a
+    /// direction is known to meet, the sum of their weights.
+    void weigh(const Views& views, const Vec3Lanes& wi, const FloatLanes& least,
+               FloatLanes& weights) const;
 
 private:
     std::vector<PhotonOpening> _openings;

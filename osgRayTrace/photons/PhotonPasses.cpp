@@ -272,19 +272,22 @@ std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const 
     const Sphere& sphere = _emitter->scene();
     // No pass has the random numbers of these photons, so all passes stay independent of them.
     PhotonPassOptions options = _scene.options;
-    const auto traceFlights = [&](uint32_t photons, int number)
+    const auto traceFlights = [&](uint32_t photons, int number, const PhotonOpenings* openings)
     {
         options.photons = photons;
         return tracePhotons(*_scene.traced, *_scene.lights, *_emitter, options, -number, workers,
-                            _memory, nullptr, nullptr, true)
+                            _memory, nullptr, openings, true)
             .flights;
     };
     const uint32_t many = std::min(2 * _scene.options.photons, kMostPilots);
-    if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1);
+    if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1, nullptr);
     if (seenShare(sphere, _fewFlights, seen) > kMostSeenShare) return nullptr;
-    if (_flights.empty()) _flights = traceFlights(many, 2);
+    if (_flights.empty()) _flights = traceFlights(many, 2, nullptr);
     _openings = findOpenings(sphere, _flights, seen, many);
     if (!_openings) std::vector<PhotonFlight>().swap(_flights); // they are some megabytes
+    if (_openings)
+        _openings =
+            refineOpenings(sphere, traceFlights(many, 3, _openings.get()), seen, many, _openings);
     return _openings;
 }
 

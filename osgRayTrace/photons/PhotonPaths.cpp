@@ -42,6 +42,15 @@ void PhotonPathQueue::append(const PhotonPathBlock& paths, LaneMask lanes)
         block.light[to] = paths.light[from];
         block.direct[to] = paths.direct[from];
     }
+    if (_flights)
+    {
+        count = _count;
+        for (const int from : lanesIn(lanes))
+        {
+            blocks[count / kLanes].flight[static_cast<int>(count % kLanes)] = paths.flight[from];
+            ++count;
+        }
+    }
     if (_media)
     {
         count = _count;

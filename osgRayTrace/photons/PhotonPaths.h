@@ -20,6 +20,8 @@ struct PhotonPathBlock
     Lanes<uint64_t> bodies; ///< words of MediumStack: bodies that the rays begin in
     Lanes<int32_t> met;     ///< number of surfaces that count as edges: see ChunkFlights.cpp
     UintLanes late;         ///< number of edges that collisions add to these
+    /// If flights are recorded: number of the last one in the chunk's list; kInvalid: none.
+    UintLanes flight;
 
     MediumStack bodiesOf(int lane) const { return MediumStack(bodies[lane]); }
 };
@@ -29,9 +31,9 @@ struct PhotonPathBlock
 class PhotonPathQueue
 {
 public:
-    /// media: paths have bodies, and count their edges.
-    PhotonPathQueue(uint32_t capacity, bool media)
-        : _blocks((capacity + kLanes - 1) / kLanes), _media(media)
+    /// media: paths have bodies, and count their edges. flights: they know their last flights.
+    PhotonPathQueue(uint32_t capacity, bool media, bool flights)
+        : _blocks((capacity + kLanes - 1) / kLanes), _media(media), _flights(flights)
     {
     }
 
@@ -49,6 +51,7 @@ private:
     UnclearedArray<PhotonPathBlock> _blocks;
     uint32_t _count = 0;
     bool _media;
+    bool _flights;
 };
 
 /// Sets the two random numbers of a dimension of each lane's photon. seed: of the dimension.

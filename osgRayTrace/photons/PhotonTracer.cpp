@@ -72,6 +72,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
     {
         block.photon[i] = first + static_cast<uint32_t>(i);
         block.direct[i] = 1;
+        block.flight[i] = kInvalid;
     }
     EmissionLanes points;
     photonPoints(block.photon, dimension(EmissionChoice), points.light, points.choice);
@@ -98,6 +99,7 @@ void ChunkTracer::emitBlock(uint32_t first, uint32_t count)
         block.power.y[i] = starts.power.y[i] * share;
         block.power.z[i] = starts.power.z[i] * share;
     }
+    if (_inputs.openings) sendFromLights(block, lanes);
     _paths.append(block, lanes);
     for (const int i : lanesIn(lanes))
         _chunk.bins[block.photon[i] - _first] = starts.bin[i];
@@ -176,6 +178,9 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
         result.photons.append(std::move(chunk.photons));
         result.beams.insert(result.beams.end(), chunk.beams.begin(), chunk.beams.end());
         result.points.insert(result.points.end(), chunk.points.begin(), chunk.points.end());
+        const auto before = static_cast<uint32_t>(result.flights.size());
+        for (PhotonFlight& flight : chunk.flights)
+            if (flight.before != kInvalid) flight.before += before;
         result.flights.insert(result.flights.end(), chunk.flights.begin(), chunk.flights.end());
         result.cutWalks += chunk.cutWalks;
         result.openWalks += chunk.openWalks;

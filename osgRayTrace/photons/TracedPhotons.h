@@ -36,6 +36,7 @@ struct PhotonFlight
     Vec3 normal{0.0f};   ///< geometric, unit, of the surface at the end, on the side of the photon
     float power = 0.0f;  ///< luminance, in units of the mean of all photons as they leave lights
     bool stored = false; ///< a photon was stored at the end: never straight from a light
+    uint32_t before = kInvalid; ///< number of the flight that ended at the start; kInvalid: none
 };
 
 /// A point of a surface at which a view looks up photons.

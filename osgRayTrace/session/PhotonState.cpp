@@ -129,6 +129,7 @@ void PhotonState::reset(int tileCount)
     std::vector<double>().swap(_carried);
     std::vector<std::vector<SeenPoint>>().swap(_points);
     _opened = false;
+    _before.reset(0);
     _passes->forgetSeen(_view);
 }
 
@@ -195,6 +196,8 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     // passes come from one eye to one scene.
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
     if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
+    static_assert(FirstPasses::kCount == PhotonPasses::kFirst);
+    if (!_planes.empty() && !_points.empty()) _before.reset(_pixels / kTilePixels);
     _projection = PixelProjection(context.camera);
     // What media scatter towards a ray, and where walks below surfaces leave them, is sampled anew
     // in each pass.
@@ -244,6 +247,7 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::max(_floor, _pointRadius * static_cast<float>(pointRadiusScale(pass)));
     context.projection = &_projection;
     _opened = _pass->hasOpenings;
+    if (pass >= PhotonPasses::kFirst && !_opened) _before.reset(0);
     _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;
 }
@@ -353,6 +357,7 @@ std::size_t PhotonState::viewBytes() const
     std::size_t bytes =
         _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
         _planes.size() * sizeof(SeenPlane) + _differences.size() * sizeof(DiscDifferences);
+    bytes += _before.bytes();
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
@@ -392,6 +397,10 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
+    if (!_before.empty() && pass < FirstPasses::kCount)
+        _before.add(static_cast<std::size_t>(tile), pass, rgba);
+    if (!_before.empty() && _opened && pass < 2 * FirstPasses::kCount)
+        _before.replace(static_cast<std::size_t>(tile), pass, rgba);
     // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())

@@ -7,6 +7,7 @@
 #include "osgRayTrace/integrators/shared/Integrator.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 #include "osgRayTrace/photons/RadiusSchedule.h"
+#include "osgRayTrace/session/FirstPasses.h"
 #include "osgRayTrace/session/RenderProgress.h"
 
 #include <memory>
@@ -160,6 +161,8 @@ private:
     std::vector<double> _seenSquares;
     /// Points at which the first pass looked up photons, by tile; empty: none are recorded.
     std::vector<std::vector<SeenPoint>> _points;
+    /// The light of the passes before openings, which count no more once there are some.
+    FirstPasses _before;
     bool _opened = false; ///< true: the pass at work is sent through openings
 };
 

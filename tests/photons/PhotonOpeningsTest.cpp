@@ -38,13 +38,13 @@ std::vector<float> picture(const std::shared_ptr<const TracedScene>& traced, con
     return session.resolveRadiance();
 }
 
-/// Holds openings of several sizes, which overlap, and a point that sees them all.
+/// Holds openings of several sizes and weights, which overlap, and a point that sees them all.
 struct Openings
 {
-    PhotonOpenings openings{{{{0.3f, 0.2f, 1.0f}, 0.4f, {0, 0, 1}},
-                             {{-0.1f, 0.3f, 1.2f}, 0.3f, {0, 0, 1}},
-                             {{0.9f, -0.9f, 0.5f}, 0.3f, {0, 0, 1}},
-                             {{0.0f, 0.0f, 1.0f}, 0.5f, {0, 0, -1}}}, // from behind
+    PhotonOpenings openings{{{{0.3f, 0.2f, 1.0f}, 0.4f, {0, 0, 1}, 1.0f},
+                             {{-0.1f, 0.3f, 1.2f}, 0.3f, {0, 0, 1}, 0.5f},
+                             {{0.9f, -0.9f, 0.5f}, 0.3f, {0, 0, 1}, 0.1f},
+                             {{0.0f, 0.0f, 1.0f}, 0.5f, {0, 0, -1}, 1.0f}}, // from behind
                             2.0f};
     PhotonOpenings::Views views = {};
 
@@ -67,7 +67,7 @@ double densityOf(const Openings& o, Vec3 wi)
     Vec3Lanes directions = {};
     setLane(directions, 0, wi);
     FloatLanes weights;
-    o.openings.weigh(o.views, directions, 0, weights);
+    o.openings.weigh(o.views, directions, FloatLanes{}, weights);
     const double pdf = double(kInvPi) * double(wi.z), weight = double(weights[0]);
     return (pdf / weight - pdf) / double(o.views.children[0]);
 }
@@ -78,14 +78,15 @@ struct Numbers
     float operator()() { return unitFloat(uint32_t(random())); }
 };
 
-Vec3 childOf(const Openings& o, Numbers& numbers)
+/// weight: that of the opening that the child is sent to.
+Vec3 childOf(const Openings& o, Numbers& numbers, FloatLanes& weight)
 {
     FloatLanes choice = {}, u = {}, v = {};
     choice[0] = numbers();
     u[0] = numbers();
     v[0] = numbers();
     Vec3Lanes wi = {};
-    o.openings.sample(o.views, choice, u, v, 1u, wi);
+    o.openings.sample(o.views, choice, u, v, 1u, wi, weight);
     return laneOf(wi, 0);
 }
 
@@ -102,7 +103,15 @@ double darkPower(const std::shared_ptr<const TracedScene>& traced, const PhotonO
     PhotonMemory memory;
     const TracedPhotons photons = tracePhotons(*traced, lights, emitter, options, pass, workers,
                                                memory, nullptr, openings, flights != nullptr);
-    if (flights) flights->insert(flights->end(), photons.flights.begin(), photons.flights.end());
+    if (flights)
+    {
+        const auto before = uint32_t(flights->size());
+        for (PhotonFlight flight : photons.flights)
+        {
+            if (flight.before != kInvalid) flight.before += before;
+            flights->push_back(flight);
+        }
+    }
     double sum = 0.0;
     for (const Photon& photon : listOf(photons.photons.spans()))
         if (photon.position.x > 4.001f) sum += double(luminance(photon.power));
@@ -144,7 +153,8 @@ TEST_CASE("photon openings: the density of directions is one in all, and that of
     double counts[8] = {};
     for (int k = 0; k < kSamples; ++k)
     {
-        const Vec3 wi = childOf(o, numbers);
+        FloatLanes weight;
+        const Vec3 wi = childOf(o, numbers, weight);
         CHECK(densityOf(o, wi) > 0.0);
         counts[(wi.x > 0.3f) + 2 * (wi.y > 0.2f) + 4 * (wi.z > 0.9f)] += 1.0;
     }
@@ -176,13 +186,14 @@ TEST_CASE("photon openings: a photon and its children have the photon's power to
             FloatLanes weights;
             const Vec3 plain = squareToCosineHemisphere(numbers(), numbers());
             setLane(wi, 0, plain);
-            o.openings.weigh(o.views, wi, 0, weights);
+            o.openings.weigh(o.views, wi, FloatLanes{}, weights);
             double sum = double(weights[0]), side = plain.x > 0.3f ? sum : 0.0;
             if (numbers() < o.views.children[0])
             {
-                const Vec3 child = childOf(o, numbers);
+                FloatLanes chosen;
+                const Vec3 child = childOf(o, numbers, chosen);
                 setLane(wi, 0, child);
-                o.openings.weigh(o.views, wi, 1, weights);
+                o.openings.weigh(o.views, wi, chosen, weights);
                 sum += double(weights[0]);
                 side += child.x > 0.3f ? double(weights[0]) : 0.0;
             }
@@ -194,6 +205,33 @@ TEST_CASE("photon openings: a photon and its children have the photon's power to
         CAPTURE(power, sums.mean(), sums.standardError(), along.mean(), expected);
         CHECK(sums.agrees(1.0)); // false alarms: 6e-5 each
         CHECK(along.agrees(expected));
+    }
+}
+
+TEST_CASE("photon openings: a flight begins where the one before it has ended", "[photons]")
+{
+    const auto traced = rooms().build(2);
+    const PhotonOpenings wide({{{4.0f, 2.04f, 1.5f}, 0.5f, {1, 0, 0}}}, 1e-4f);
+    for (const PhotonOpenings* openings : {static_cast<const PhotonOpenings*>(nullptr), &wide})
+    {
+        std::vector<PhotonFlight> flights;
+        darkPower(traced, openings, 3, &flights);
+        darkPower(traced, openings, 4, &flights);
+        std::size_t first = 0, wrong = 0;
+        for (std::size_t k = 0; k < flights.size(); ++k)
+        {
+            const PhotonFlight& flight = flights[k];
+            if (flight.before == kInvalid)
+            {
+                ++first;
+                continue;
+            }
+            REQUIRE(flight.before < k);
+            wrong += glm::distance(flights[flight.before].to, flight.from) > 1e-3f;
+        }
+        CHECK(first >= 2 * 16384);
+        CHECK(first < flights.size() / 2);
+        CHECK(wrong == 0);
     }
 }
 
@@ -222,6 +260,30 @@ TEST_CASE("photon openings: a slit is found, and its light varies by half at mos
     const double spread = std::hypot(plain.standardError(), sent.standardError());
     CHECK(std::abs(plain.mean() - sent.mean()) <= 4.0 * spread); // false alarm: 1e-4
     CHECK(sent.variance() < 0.5 * plain.variance());
+
+    // Photons that these openings have sent find smaller ones, which hold all of the slit.
+    std::vector<PhotonFlight> sentFlights;
+    for (int pass = 0; pass < 6; ++pass)
+        darkPower(traced, openings.get(), 2000 + pass, &sentFlights);
+    const auto refined = refineOpenings(scene, sentFlights, farWall(), 6 * 16384, openings);
+    REQUIRE(refined != openings);
+    float inside = 0.0f, weights = 0.0f;
+    for (const PhotonOpening& opening : refined->openings())
+    {
+        CHECK(opening.weight <= 1.0f);
+        weights += opening.weight;
+        if (std::abs(opening.centre.x - 4.0f) < 0.1f && std::abs(opening.centre.y - 2.04f) < 0.1f)
+            inside += opening.weight;
+    }
+    CAPTURE(refined->openings().size(), inside, weights);
+    CHECK(inside > 0.8f * weights);
+    Estimate fine;
+    for (int pass = 0; pass < kPasses; ++pass)
+        fine.add(darkPower(traced, refined.get(), 3000 + pass));
+    CAPTURE(fine.mean(), fine.standardError(), fine.variance() / plain.variance());
+    const double fineSpread = std::hypot(plain.standardError(), fine.standardError());
+    CHECK(std::abs(plain.mean() - fine.mean()) <= 4.0 * fineSpread); // false alarm: 1e-4
+    CHECK(fine.variance() < 0.1 * plain.variance());
 }
 
 TEST_CASE("photon openings: none where the view shows the lit room, or the opening is wide",

@@ -1,0 +1,47 @@
+// FirstPasses.cpp - takes the first passes of an image back. Layer: session.
+// SPDX-License-Identifier: MIT
+#include "osgRayTrace/session/FirstPasses.h"
+
+namespace osgRayTrace::engine
+{
+
+void FirstPasses::reset(std::size_t tiles)
+{
+    std::vector<Tile>(tiles).swap(_tiles);
+}
+
+void FirstPasses::add(std::size_t number, int pass, const RgbaLanes* rgba)
+{
+    Tile& tile = _tiles[number];
+    const auto bit = static_cast<uint8_t>(1u << pass);
+    if (tile.passes & bit) return;
+    tile.passes |= bit;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        Vec3Lanes& sum = tile.sums[pass & 1][b];
+        for (int i = 0; i < kLanes; ++i)
+        {
+            sum.x[i] += rgba[b].r[i];
+            sum.y[i] += rgba[b].g[i];
+            sum.z[i] += rgba[b].b[i];
+        }
+    }
+}
+
+void FirstPasses::replace(std::size_t number, int pass, RgbaLanes* rgba) const
+{
+    const Tile& tile = _tiles[number];
+    if (tile.passes != (1u << kCount) - 1u) return;
+    for (int b = 0; b < kTileBlocks; ++b)
+    {
+        const Vec3Lanes& sum = tile.sums[pass & 1][b];
+        for (int i = 0; i < kLanes; ++i)
+        {
+            rgba[b].r[i] = 2.0f * rgba[b].r[i] - 0.5f * sum.x[i];
+            rgba[b].g[i] = 2.0f * rgba[b].g[i] - 0.5f * sum.y[i];
+            rgba[b].b[i] = 2.0f * rgba[b].b[i] - 0.5f * sum.z[i];
+        }
+    }
+}
+
+} // namespace osgRayTrace::engine
