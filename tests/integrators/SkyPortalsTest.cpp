@@ -359,6 +359,29 @@ TEST_CASE("sky portals: the mean is the same wherever the rectangles stand",
     }
 }
 
+TEST_CASE("sky portals: the mean behind a pane with a sill on both sides",
+          "[integrators][statistics]")
+{
+    Room room;
+    room.build(false, true);
+    room.wall({3.8f, 2, 1}, {0.6f, 0, 0}, {0, 1, 0});
+    Material pane = glass(1.5f);
+    MaterialDetail thin;
+    thin.thinWalled = true;
+    pane.detail = std::make_shared<MaterialDetail>(thin);
+    room.builder.add(quadMesh({4, 2, 1}, {0, 1, 0}, {0, 0, 1}), pane);
+    room.addSunnySky(1000.0f);
+    const auto traced = room.builder.build();
+    const View view = room.view(16, 16);
+    const SkyPortals portals({rectangle({4.4f, 1.9f, 0.9f}, {0, 1.2f, 0}, {0, 0, 1.4f})});
+    const Estimate none = meanWith(*traced, view, nullptr, 192);
+    const Estimate known = meanWith(*traced, view, &portals, 96);
+    const double error = std::hypot(none.standardError(), known.standardError());
+    CAPTURE(none.mean(), known.mean(), error);
+    CHECK(std::abs(known.mean() - none.mean()) < 4.0 * error); // 6e-5 of all seeds fail
+    CHECK(error < 0.015 * none.mean());
+}
+
 TEST_CASE("sky portals: pictures are equal for any number of threads", "[integrators]")
 {
     Room room;

@@ -84,6 +84,7 @@ struct SunSpots
 
     bool active = false;
     int count = 0;
+    int outside = 0; ///< the first ones, whose beams have passed no pane; 0 without panes
     SunSpot spots[kBeams];
 };
 
@@ -213,7 +214,8 @@ void samplePortals(Tile& tile, PathBlock& block, const Bounce& bounce, const Uin
 /// Sends the tile's beams through the portals of the pass, if it has any.
 void beginSunSpots(Tile& tile);
 
-/// Adds light of one of the tile's spots to each lane of a bounce, from the second surface on.
+/// Adds light of one of the tile's spots to each lane of a bounce, from the second surface on, and
+/// from the first one through panes.
 void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
 
 /// Returns the lanes at the end of rays that samples of spots could have found as well.

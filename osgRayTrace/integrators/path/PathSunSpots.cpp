@@ -5,7 +5,8 @@
 // The sun comes through a window and lights a spot, which is bright and small: most rays miss it.
 // So each tile sends beams from portals into the room, along directions omega that samples of the
 // sky find. A beam ends at a spot z, and each surface y that a path meets from its second one on
-// takes a sample of one of the spots,
+// takes a sample of one of the spots. The first one does so of spots behind panes, to which pixels
+// do not share paths (PathReuse.cpp).
 //
 //   L_y = f_y cosTheta_y g B V / (p_y g (p_sky + p_portal) + p_sky p_beam),
 //   g = cosTheta_z / r^2,   B = f_z cosTheta_z' L(omega) V'
@@ -37,22 +38,24 @@ namespace
 
 constexpr float kFlat = 1.0f - 1e-6f; ///< least cosine between normals that differ by rounding only
 constexpr int kMostPanes = 64;
-constexpr int kFirstNumber = 1; ///< surfaces of rays from this number on take samples of spots
 
 /// The spots' dimensions lie apart from those of bounces and of samples of the sky.
 constexpr uint32_t kSpotDimension = 0x80000u;
 
 /// Takes beams on through panes, whose share of the light the shadow ray from the spot finds.
-void passPanesStraight(Tile& tile, RayHitBlock& rays, LaneMask lanes, SurfaceLanes& surface)
+/// Returns the lanes that have passed some.
+LaneMask passPanesStraight(Tile& tile, RayHitBlock& rays, LaneMask lanes, SurfaceLanes& surface)
 {
     const TracedScene& traced = *tile.context.traced;
     const MaterialTable& materials = traced.materials();
+    LaneMask all = 0;
     for (int panes = 0; panes < kMostPanes; ++panes)
     {
         LaneMask passed = 0;
         for (const int i : lanesIn(lanes & surface.hits))
             passed |= static_cast<LaneMask>(materials[surface.material[i]].pane) << i;
-        if (!passed) return;
+        if (!passed) return all;
+        all |= passed;
         RayHitBlock behind;
         behind.ray = rays.ray;
         for (const int i : lanesIn(passed))
@@ -66,6 +69,7 @@ void passPanesStraight(Tile& tile, RayHitBlock& rays, LaneMask lanes, SurfaceLan
         surfacesOf(traced.surfaces(), behind, passed, met, rayStart(tile.context.options));
         mergeHits(behind, met, passed, rays, surface);
     }
+    return all;
 }
 
 /// Returns the lanes whose surfaces can be spots.
@@ -113,7 +117,8 @@ void addSpots(Tile& tile, const UintLanes& seeds, uint32_t index)
     tile.counts.secondaryRays += static_cast<uint64_t>(countLanes(sent));
     SurfaceLanes surface;
     surfacesOf(traced.surfaces(), rays, sent, surface, rayStart(context.options));
-    if (traced.traits().panes) passPanesStraight(tile, rays, sent, surface);
+    const LaneMask behind =
+        traced.traits().panes ? passPanesStraight(tile, rays, sent, surface) : 0;
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
     for (const int i : lanesIn(spotLanes(tile, surface, normal) & sent))
@@ -130,7 +135,7 @@ void addSpots(Tile& tile, const UintLanes& seeds, uint32_t index)
         const float cosine = glm::dot(wi, laneOf(normal, i));
         const float beams = context.portals->beamPdfA(position, wi, cosine);
         if (!(beams > 0.0f) || !(cosine > 0.0f)) continue; // rounding
-        SunSpot& spot = tile.spots.spots[tile.spots.count++];
+        SunSpot& spot = tile.spots.spots[tile.spots.count];
         spot.position = position;
         spot.normal = laneOf(surface.geometricNormal, i);
         spot.offset = surface.offset[i];
@@ -141,7 +146,31 @@ void addSpots(Tile& tile, const UintLanes& seeds, uint32_t index)
         spot.radiance = albedo * light * (kInvPi * cosine * mis);
         spot.byLight = byLight;
         spot.byBeam = pdfSky[i] * beams;
+        if (traced.traits().panes && !((behind >> i) & 1u))
+            std::swap(spot, tile.spots.spots[tile.spots.outside++]);
+        ++tile.spots.count;
     }
+}
+
+/// A spot, and the number of beams that it stands for.
+struct ChosenSpot
+{
+    const SunSpot* spot;
+    float beams; ///< 1 over the probability of the choice
+};
+
+/// Chooses a spot; fromEye: rather one of those outside of panes, as others give nothing but by a
+/// further pane. place: number in [0,1).
+ChosenSpot chooseSpot(const SunSpots& spots, bool fromEye, float place)
+{
+    constexpr float kOutside = 0.75f; ///< share of the places of spots outside of panes
+    const float first = fromEye && spots.outside > 0 ? kOutside : 0.0f;
+    const int count = place < first ? spots.outside : spots.count;
+    const float within = place < first ? place / first : (place - first) / (1.0f - first);
+    const int at = std::min(static_cast<int>(within * static_cast<float>(count)), count - 1);
+    float pmf = (1.0f - first) / static_cast<float>(spots.count);
+    if (at < spots.outside && first > 0.0f) pmf += first / static_cast<float>(spots.outside);
+    return {&spots.spots[at], 1.0f / pmf};
 }
 
 } // namespace
@@ -149,15 +178,12 @@ void addSpots(Tile& tile, const UintLanes& seeds, uint32_t index)
 void beginSunSpots(Tile& tile)
 {
     const SkyPortals* portals = tile.context.portals;
-    tile.spots.count = 0;
     tile.spots.active = portals && portals->lightsSpots();
     if (!tile.spots.active) return;
     const PassKey& key = tile.context.key;
     UintLanes seeds;
     const uint32_t seed =
         hash(pixelSeed(key, static_cast<uint32_t>(tile.left), static_cast<uint32_t>(tile.bottom)));
-    for (int i = 0; i < kLanes; ++i)
-        seeds[i] = seed;
     for (int b = 0; b < SunSpots::kBeams / kLanes; ++b)
     {
         for (int i = 0; i < kLanes; ++i)
@@ -168,7 +194,8 @@ void beginSunSpots(Tile& tile)
 
 void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds)
 {
-    if (!tile.spots.active || tile.spots.count == 0 || bounce.number < kFirstNumber) return;
+    if (!tile.spots.active || tile.spots.count == 0) return;
+    if (bounce.number == 0 && !tile.context.traced->traits().panes) return;
     if (bounce.number + 1 >= tile.context.options.maxBounces) return;
     const PassContext& context = tile.context;
     const LaneMask lanes = bounce.diffuse | (bounce.general & ~bounce.smooth);
@@ -176,16 +203,14 @@ void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const Ui
     dimensionPoints(seeds, context.key.index,
                     bounceDimension(bounce.number, DimensionLightChoice) + kSpotDimension, choice,
                     unused);
-    const auto count = static_cast<float>(tile.spots.count);
     LightLanes samples;
     samples.lit = samples.tinted = 0;
-    uint32_t chosen[kLanes];
+    ChosenSpot chosen[kLanes];
     FloatLanes geometry;
     for (const int i : lanesIn(lanes))
     {
-        chosen[i] = std::min(static_cast<uint32_t>(choice[i] * count),
-                             static_cast<uint32_t>(tile.spots.count) - 1);
-        const SunSpot& spot = tile.spots.spots[chosen[i]];
+        chosen[i] = chooseSpot(tile.spots, bounce.number == 0, choice[i]);
+        const SunSpot& spot = *chosen[i].spot;
         const Vec3 end = spot.position + spot.normal * spot.offset;
         const Vec3 d = spot.position - laneOf(bounce.surface.position, i);
         const float distance2 = glm::dot(d, d);
@@ -208,10 +233,9 @@ void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const Ui
     if (samples.lit & bounce.general)
         evalTowardsLight(block.rays.ray, bounce.surface, bounce.normal, bounce.bsdfs, samples.wi,
                          samples.lit & bounce.general, fCos, pdfW);
-    const float share = count / static_cast<float>(SunSpots::kBeams);
     for (const int i : lanesIn(samples.lit))
     {
-        const SunSpot& spot = tile.spots.spots[chosen[i]];
+        const SunSpot& spot = *chosen[i].spot;
         const bool diffuse = (bounce.diffuse >> i) & 1u;
         const float pdf =
             diffuse ? kInvPi * glm::dot(laneOf(samples.wi, i), laneOf(bounce.normal, i)) : pdfW[i];
@@ -220,23 +244,21 @@ void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const Ui
             samples.lit &= ~(1u << i);
             continue;
         }
-        samples.weight[i] = share * geometry[i] / (pdf * geometry[i] * spot.byLight + spot.byBeam);
+        samples.weight[i] = chosen[i].beams / static_cast<float>(SunSpots::kBeams) * geometry[i] /
+                            (pdf * geometry[i] * spot.byLight + spot.byBeam);
     }
     if (!samples.lit) return;
     countRays(tile, block, samples.lit);
-    context.traced->intersector().occlusion(samples.shadow, samples.lit);
-    tile.counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
-    LaneMask visible = 0;
-    for (const int i : lanesIn(samples.lit))
-        visible |= static_cast<LaneMask>(samples.shadow.tFar[i] >= 0.0f) << i;
+    LaneMask visible = visibleLanes(context, samples, tile.counts);
+    if (bounce.number == 0) visible &= samples.tinted; // pixels share the paths to other spots
     addLight(tile, block, bounce, samples, visible, kAllLanes);
 }
 
 LaneMask lanesOnSpots(const Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
-    if (!tile.spots.active || bounce.number < kFirstNumber + 1) return 0;
-    LaneMask lanes =
-        spotLanes(tile, bounce.surface, bounce.normal) & bounce.diffuse & ~bounce.behindPanes;
+    if (!tile.spots.active || bounce.number == 0) return 0;
+    LaneMask lanes = spotLanes(tile, bounce.surface, bounce.normal) & bounce.diffuse;
+    if (bounce.number == 1) lanes &= bounce.behindPanes;
     for (const int i : lanesIn(lanes))
         if (!(block.pdfW[i] < kInfinity)) lanes &= ~(1u << i);
     return lanes;
