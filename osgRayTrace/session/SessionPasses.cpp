@@ -341,6 +341,7 @@ RenderProgress SessionState::run(const StopRule& rule,
         PassContext context = contextOf(next);
         progress.lights = sampledLightCounts(context);
         preparePhotons(context, pass);
+        preparePortals(context, pass);
         if (newPasses == 0) progress.firstPhotonSeconds = progress.photonSeconds;
         // The display is written in the pass that is likely to be the last one, with the tiles that
         // only earlier passes of this call reached.

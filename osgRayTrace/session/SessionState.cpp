@@ -5,6 +5,7 @@
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/base/Assert.h"
 #include "osgRayTrace/integrators/shared/IntegratorChoice.h"
+#include "osgRayTrace/integrators/shared/SkyPortalFinder.h"
 #include "osgRayTrace/integrators/shared/SurfaceSample.h"
 
 #include <algorithm>
@@ -156,6 +157,7 @@ bool SessionState::begin()
     filmCentred = centred;
     placedLights = std::move(placed);
     strata = std::move(newStrata);
+    portals.reset();
     progress = RenderProgress();
     progress.restarted = true;
     photonsCounted = 0;
@@ -187,6 +189,7 @@ bool SessionState::beginView()
     if (!rays) return false;
     placedLights = engine::placedLights(scene->scene(), view);
     strata = strataOf(*scene, options);
+    portals.reset();
     camera = *rays;
     filmView = view;
     filmOptions = options;
@@ -267,6 +270,28 @@ PassContext SessionState::contextOfPass(int pass) const
     context.wantsDepth = pass == 0;
     context.throughCentres = filmCentred || (filmOptions.centredFirstPass && paths == 0);
     return context;
+}
+
+/// Lets the pass know the openings to the sky. They are looked for when the first pass wants them:
+/// moving views, whose images have few passes, pay nothing for them.
+void SessionState::preparePortals(PassContext& context, int pass)
+{
+    constexpr int kFirstPass = 2; // that knows them
+    const SceneTraits& traits = context.traced->traits();
+    const bool wanted = pass >= kFirstPass && progress.integrator == IntegratorKind::Path &&
+                        context.photonUse == PhotonUse::None &&
+                        context.traced->lights().shiningEnvironment() && !context.strata &&
+                        !traits.media && context.options.shadows && !filmOptions.moving;
+    if (!wanted) return;
+    if (!portals)
+    {
+        TileCounts counts;
+        portals = findSkyPortals(context, counts);
+        progress.rays.camera += counts.cameraRays;
+        progress.rays.shadow += counts.shadowRays;
+        progress.rays.secondary += counts.secondaryRays;
+    }
+    context.portals = portals->get();
 }
 
 /// Returns the context of the pass that is made next. The depths of an image are those of the least

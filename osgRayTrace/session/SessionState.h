@@ -20,6 +20,7 @@
 namespace osgRayTrace::engine
 {
 
+class SkyPortals;
 struct TileSamples;
 
 struct SessionState
@@ -56,6 +57,7 @@ struct SessionState
                         const std::function<void(int)>& trace);
     void finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes);
     void preparePhotons(PassContext& context, int pass);
+    void preparePortals(PassContext& context, int pass);
     TileCounts sampleTile(const PassContext& context, const Integrator& integrator, int number,
                           TileSamples& tile) const;
     void samplePixels(std::vector<TileSamples>& tiles, const std::function<bool()>& shouldStop);
@@ -103,6 +105,7 @@ struct SessionState
     CameraRays camera;
     std::vector<Light> placedLights; // the lights, placed; empty: those of the scene
     std::vector<EnvironmentStratum> strata;
+    std::optional<std::shared_ptr<const SkyPortals>> portals; // null: none; empty: not looked for
     Film film;
     PassSet filmPasses;            // the whole passes of the film
     std::optional<int> wantedPass; // the next one that the film is to get

@@ -44,6 +44,7 @@ bool TileTracer::begin(const HelpedPass& pass)
         _context->leastPhotonRadius = pass.photons.leastRadius;
         _context->largestPhotonRadius = pass.photons.largestRadius;
     }
+    state.preparePortals(*_context, pass.pass);
     _integrator = newIntegrator(state.progress.integrator);
     return true;
 }

@@ -68,6 +68,26 @@ struct SkyRays
     LaneMask lanes[kTileBlocks] = {}; ///< pixels that have asked
 };
 
+/// A place that a beam of the sky lights: see PathSunSpots.cpp.
+struct SunSpot
+{
+    Vec3 position, normal; ///< the normal is on the lit side
+    float offset;          ///< as that of SurfaceLanes
+    Vec3 radiance;         ///< that it sends back, times the density of beams [W/(m^2 sr^2)]
+    float byLight;         ///< density of light samples at the spot towards the beam [1/sr]
+    float byBeam;          ///< density of beams [1/(sr area)]
+};
+
+struct SunSpots
+{
+    static constexpr int kBeams = 64;
+
+    bool active = false;
+    int count = 0;
+    int outside = 0; ///< the first ones, whose beams have passed no pane; 0 without panes
+    SunSpot spots[kBeams];
+};
+
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
@@ -93,6 +113,7 @@ struct Tile
     PathQueue paths;
     ReuseGroups reuse;
     SkyRays sky;
+    SunSpots spots;
     Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
     GatherScratch gatherScratch; ///< scratch of all photon look-ups
     bool hasBeams = false;       ///< beams are those near the tile's camera rays
@@ -182,6 +203,32 @@ void addSkyRays(Tile& tile, PathBlock& block, const Bounce& bounce);
 /// Returns the share of the sky's light that the path adds itself at the end of the ray of this
 /// number; the rays that asked for the sky have added the others.
 float shareOfSky(const Tile& tile, PathFlags path, int number);
+
+/// The environment's dimensions lie apart from those of all bounces, so that scenes without an
+/// environment keep their sequences.
+constexpr uint32_t kEnvironmentDimension = 0x10000u;
+
+/// Adds samples of the environment and of the portals of the pass: see PathSkyPortals.cpp.
+void samplePortals(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
+
+/// Sends the tile's beams through the portals of the pass, if it has any.
+void beginSunSpots(Tile& tile);
+
+/// Adds light of one of the tile's spots to each lane of a bounce, from the second surface on, and
+/// from the first one through panes.
+void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
+
+/// Returns the lanes at the end of rays that samples of spots could have found as well.
+LaneMask lanesOnSpots(const Tile& tile, const PathBlock& block, const Bounce& bounce);
+
+/// Returns the share that light samples of such a lane add of light from wi. pdfSky, pdfPortal:
+/// densities of these samples [1/sr].
+float shareBesideSpots(const Tile& tile, const PathBlock& block, const Bounce& bounce, int i,
+                       Vec3 wi, float pdfSky, float pdfPortal);
+
+/// Returns the density with which the light samples at a point would have found a direction of the
+/// sky [1/sr]. from: begin of the ray that met the sky.
+float skyPdfW(const Tile& tile, Vec3 from, Vec3 direction);
 
 /// Adds samples of the environment if it shines. seeds are the seeds of light samples.
 void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);

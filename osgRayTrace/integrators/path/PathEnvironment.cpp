@@ -18,10 +18,6 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// The environment's dimensions lie apart from those of all bounces, so that scenes without an
-/// environment keep their sequences.
-constexpr uint32_t kEnvironmentDimension = 0x10000u;
-
 /// Traces the shadow rays of samples and adds the light of the visible lanes.
 void addSamples(Tile& tile, PathBlock& block, const Bounce& bounce, LightLanes& samples,
                 LaneMask withoutMis)
@@ -60,6 +56,11 @@ void sampleEnvironment(Tile& tile, PathBlock& block, const Bounce& bounce, const
 {
     if (!tile.context.traced->lights().shiningEnvironment()) return;
     const LaneMask lanes = (bounce.diffuse | bounce.general) & ~bounce.carried;
+    if (tile.context.portals)
+    {
+        samplePortals(tile, block, bounce, seeds);
+        return;
+    }
     if (tile.sky.active && bounce.number == 0) addSkyRays(tile, block, bounce);
     LightLanes samples;
     if (tile.context.strata && bounce.number == 0)
@@ -108,11 +109,11 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
         if (use != PhotonUse::None && path.isOnCausticChain()) continue; // photons carry it
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // strata hold all of its light
-        const Vec3 direction = directionOf(block.rays.ray, i);
+        const RayBlock& ray = block.rays.ray;
+        const Vec3 direction = directionOf(ray, i);
+        const Vec3 from(ray.originX[i], ray.originY[i], ray.originZ[i]);
         const float weight =
-            sampled ? powerHeuristic(block.pdfW[i],
-                                     environmentPdfW(tile.context, *environment, direction))
-                    : 1.0f;
+            sampled ? powerHeuristic(block.pdfW[i], skyPdfW(tile, from, direction)) : 1.0f;
         const float share = sampled ? shareOfSky(tile, path, number) : 1.0f;
         tile.sums.add(path, throughput * environment->radiance(direction) * (weight * share));
     }

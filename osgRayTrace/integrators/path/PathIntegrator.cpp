@@ -237,6 +237,7 @@ void tracePaths(Tile& tile, PhotonUse use)
     }
     beginReuse(tile, use);
     beginSkyRays(tile, use);
+    beginSunSpots(tile);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;

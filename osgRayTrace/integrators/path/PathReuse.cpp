@@ -140,15 +140,50 @@ void connectPath(Tile& tile, int group, int own, Vec3 radiance, Vec3Lanes& share
         tile.sums.add(PathFlags::ofPixel(pixel), laneOf(x.albedo, own) * radiance);
 }
 
-/// Adds the light of a group's reused paths to the sums of its pixels.
-void connectGroup(Tile& tile, int group)
+/// Returns the mean luminance that the tile's reused paths have found.
+float meanRadiance(const Tile& tile)
+{
+    float sum = 0.0f;
+    int count = 0;
+    for (int group = 0; group < kReuseGroups; ++group)
+        for (const int own : lanesIn(tile.reuse.reused[group]))
+        {
+            const PathFlags path = PathFlags::ofPixel(tile.reuse.pixelOf(group, own));
+            const float value = luminance(tile.sums.reused(path));
+            if (!std::isfinite(value)) continue;
+            sum += value;
+            ++count;
+        }
+    return count > 0 ? sum / static_cast<float>(count) : 0.0f;
+}
+
+/// Returns a number in [0,1) that decides on the pixel's path.
+float numberOf(const Tile& tile, uint32_t pixel)
+{
+    constexpr uint32_t kConnected = 0x7e05eu;
+    const auto block = static_cast<int>(pixel / kLanes), lane = static_cast<int>(pixel % kLanes);
+    const uint32_t seed =
+        pixelSeed(tile.context.key, static_cast<uint32_t>(tile.left + laneX(block, lane)),
+                  static_cast<uint32_t>(tile.bottom + laneY(block, lane)));
+    return unitFloat(hash(hash(seed, kConnected), tile.context.key.index));
+}
+
+/// Adds the light of a group's reused paths to the sums of its pixels. Of paths with less luminance
+/// than the bound, those are connected that roulette chooses.
+void connectGroup(Tile& tile, int group, float bound)
 {
     Vec3Lanes shares = {};
     for (const int own : lanesIn(tile.reuse.reused[group]))
     {
         const PathFlags path = PathFlags::ofPixel(tile.reuse.pixelOf(group, own));
-        const Vec3 radiance = tile.sums.reused(path);
+        Vec3 radiance = tile.sums.reused(path);
         if (radiance == Vec3(0.0f)) continue;
+        const float survival = luminance(radiance) / bound; // infinite, or no number: no roulette
+        if (survival < 1.0f)
+        {
+            if (!(numberOf(tile, path.pixel()) < survival)) continue;
+            radiance /= survival;
+        }
         if (isFinite(radiance))
             connectPath(tile, group, own, radiance, shares);
         else // only the path's own pixel is dropped and counted
@@ -214,8 +249,10 @@ void reusePaths(Tile& tile, PathBlock& block, const Bounce& bounce)
 
 void connectPaths(Tile& tile)
 {
+    // Where portals are sampled, nearly all paths find some light, most of them little.
+    const float bound = tile.context.portals ? meanRadiance(tile) : 0.0f;
     for (int group = 0; group < kReuseGroups; ++group)
-        if (tile.reuse.reused[group]) connectGroup(tile, group);
+        if (tile.reuse.reused[group]) connectGroup(tile, group, bound);
 }
 
 } // namespace osgRayTrace::engine

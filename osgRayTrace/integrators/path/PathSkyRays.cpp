@@ -70,8 +70,8 @@ void skyRays(const SurfaceLanes& surface, const Vec3Lanes& normal, LaneMask lane
 void beginSkyRays(Tile& tile, PhotonUse use)
 {
     const TracedScene& traced = *tile.context.traced;
-    tile.sky.active = traced.lights().shiningEnvironment() && use == PhotonUse::None &&
-                      !traced.traits().media && !tile.context.strata &&
+    tile.sky.active = traced.lights().shiningEnvironment() && !tile.context.portals &&
+                      use == PhotonUse::None && !traced.traits().media && !tile.context.strata &&
                       tile.context.options.shadows;
 }
 

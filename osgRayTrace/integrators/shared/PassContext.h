@@ -16,6 +16,7 @@ namespace osgRayTrace::engine
 class PhotonMap;
 struct VolumePhotons;
 class PixelProjection;
+class SkyPortals;
 
 /// The input of a pass over the image of one view. All threads share it, and none changes it.
 struct PassContext
@@ -37,6 +38,7 @@ struct PassContext
     PhotonUse photonUse = PhotonUse::None;
     /// The environment's strata, if options.environmentSampling is Structured; null: none.
     const std::vector<EnvironmentStratum>* strata = nullptr;
+    const SkyPortals* portals = nullptr; ///< openings of the scene to the sky; null: not known
 
     const PhotonMap* photons = nullptr;          ///< photons of the pass, if photonUse is not None
     const PixelProjection* projection = nullptr; ///< of the camera; set if photons are

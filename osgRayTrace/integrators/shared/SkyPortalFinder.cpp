@@ -1,0 +1,498 @@
+// SkyPortalFinder.cpp - rectangles around rays that have met the sky. Layer: integrators.
+// SPDX-License-Identifier: MIT
+//
+// 1. Points that the camera sees, and points around these, send rays like Lambert's surfaces. Those
+//    that meet the sky are flights.
+// 2. A flight votes in each cell of a grid that it crosses, but all flights of the points of a
+// block
+//    together have one vote. The cell with most votes lies in an opening.
+// 3. Planes through places near this cell, across directions in which the scene has surfaces, are
+//    tried. On each of them grows the rectangle around the flights that cross it next to the cell.
+//    The plane that has most flights in the least area is that of the opening.
+// 4. More rays through a somewhat larger rectangle show its borders.
+// 5. The flights through the rectangle are taken away, and the next opening is looked for.
+#include "osgRayTrace/integrators/shared/SkyPortalFinder.h"
+
+#include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/accel/Surface.h"
+#include "osgRayTrace/integrators/shared/CameraLanes.h"
+#include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/ShadowLanes.h"
+#include "osgRayTrace/sampling/Hash.h"
+#include "osgRayTrace/sampling/Sobol.h"
+#include "osgRayTrace/sampling/Warp.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+constexpr int kBlocks = 64;         ///< blocks of sixteen surfaces that send rays
+constexpr int kFirstRounds = 2;     ///< rays of a point before it is known whether any is of use
+constexpr int kRounds = 16;         ///< rays of a point
+constexpr float kEasyToFind = 0.3f; ///< share of the rays that find the sky without help
+constexpr std::size_t kLeastFlights = 24;
+constexpr float kLeastHeld = 0.9f; ///< share of the flights that cross portals
+constexpr int kCells = 48;         ///< of the grid, along a side
+constexpr int kMostNormals = 8;
+constexpr uint32_t kSeed = 0x5c9b1e77u;
+
+/// A ray that has met the sky.
+struct Flight
+{
+    Vec3 from, direction;
+    int block; ///< of points
+};
+
+/// Sixteen points.
+struct SeenBlock
+{
+    SurfaceLanes surface;
+    Vec3Lanes normal;
+    LaneMask lanes = 0;
+};
+
+struct Seen
+{
+    std::vector<SeenBlock> blocks;
+    Vec3 low{kInfinity}, high{-kInfinity}; ///< bounds of the points and the eye
+};
+
+/// Sets what the rays of a block met, and its bounds. Panes are no surfaces that light ends at.
+void setSeen(const PassContext& context, const RayHitBlock& rays, LaneMask active, Seen& seen,
+             SeenBlock& block)
+{
+    surfacesOf(context.traced->surfaces(), rays, active, block.surface);
+    facingNormalLanes(rays.ray, block.surface, block.normal);
+    const MaterialTable& materials = context.traced->materials();
+    for (const int i : lanesIn(block.surface.hits))
+    {
+        if (materials[block.surface.material[i]].pane) continue;
+        block.lanes |= 1u << i;
+        seen.low = glm::min(seen.low, laneOf(block.surface.position, i));
+        seen.high = glm::max(seen.high, laneOf(block.surface.position, i));
+    }
+}
+
+/// Returns a direction that a Lambert surface sends a ray to.
+Vec3 lambertDirection(const SeenBlock& block, int i, uint32_t number, std::size_t b)
+{
+    float u, v;
+    sobol2(number, hash(kSeed, static_cast<uint32_t>(b) * kLanes + static_cast<uint32_t>(i)), u, v);
+    const PlainVec3 local = squareToCosineHemispherePlain(u, v);
+    return ShadingFrame(laneOf(block.normal, i)).toWorld(Vec3(local.x, local.y, local.z));
+}
+
+/// Traces the middles of pixels in blocks that are spread over the image, and rays on from there:
+/// what lies around is seen in close-ups, too.
+Seen lookAround(const PassContext& context, TileCounts& counts)
+{
+    Seen seen;
+    const Intersector& intersector = context.traced->intersector();
+    const int across = tilesAlong(context.width), tiles = across * tilesAlong(context.height);
+    const int64_t all = int64_t(tiles) * kTileBlocks;
+    const auto count = static_cast<std::size_t>(std::min<int64_t>(all, kBlocks / 2));
+    seen.blocks.resize(2 * count);
+    seen.low = seen.high = context.eye;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+        // One block of each stretch of the image, by chance.
+        const auto stretch = static_cast<int64_t>(k), stretches = static_cast<int64_t>(count);
+        const int64_t first = all * stretch / stretches, last = all * (stretch + 1) / stretches;
+        const int64_t at = first + hash(kSeed, static_cast<uint32_t>(k)) % (last - first);
+        const auto tile = static_cast<int>(at / kTileBlocks);
+        RayHitBlock rays;
+        centreRayLanes(context.camera, tile % across * kTileSize, tile / across * kTileSize,
+                       static_cast<int>(at % kTileBlocks), rays);
+        intersector.closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
+        counts.cameraRays += kLanes;
+        SeenBlock& block = seen.blocks[k];
+        setSeen(context, rays, kAllLanes, seen, block);
+        RayHitBlock further;
+        for (const int i : lanesIn(block.lanes))
+        {
+            const Vec3 wi = lambertDirection(block, i, kRounds, k);
+            setRay(further.ray, i, leave(block.surface, i, wi), wi, kInfinity);
+        }
+        intersector.closestHits(further, block.lanes, Coherence::Incoherent);
+        counts.secondaryRays += static_cast<uint64_t>(countLanes(block.lanes));
+        setSeen(context, further, block.lanes, seen, seen.blocks[count + k]);
+    }
+    return seen;
+}
+
+/// Traces the samples and adds those that meet the sky to the flights. Returns how many were sent.
+int addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
+               TileCounts& counts, std::vector<Flight>& flights)
+{
+    const int sent = countLanes(samples.lit);
+    samples.tinted = 0;
+    const LaneMask visible = visibleLanes(context, samples, counts);
+    for (const int i : lanesIn(visible))
+        flights.push_back({laneOf(seen.surface.position, i), laneOf(samples.wi, i), block});
+    return sent;
+}
+
+void setFlight(const SeenBlock& seen, int i, Vec3 wi, LightLanes& samples)
+{
+    if (!(glm::dot(wi, laneOf(seen.surface.geometricNormal, i)) > 0.0f)) return;
+    setSample(samples, i, wi, Vec3(1.0f), 1.0f);
+    setRay(samples.shadow, i, leave(seen.surface, i, wi), wi, kInfinity);
+    samples.lit |= 1u << i;
+}
+
+/// Sends rays of some rounds from all that is seen. Returns their number.
+int sendAround(const PassContext& context, const Seen& seen, int first, int last,
+               TileCounts& counts, std::vector<Flight>& flights)
+{
+    int sent = 0;
+    for (int round = first; round < last; ++round)
+        for (std::size_t b = 0; b < seen.blocks.size(); ++b)
+        {
+            const SeenBlock& block = seen.blocks[b];
+            LightLanes samples;
+            for (const int i : lanesIn(block.lanes))
+                setFlight(block, i, lambertDirection(block, i, static_cast<uint32_t>(round), b),
+                          samples);
+            sent += addFlights(context, block, static_cast<int>(b), samples, counts, flights);
+        }
+    return sent;
+}
+
+/// The votes of flights for cells.
+struct Votes
+{
+    Vec3 low{0.0f};
+    float cell = 0.0f; ///< width [engine units]
+    std::vector<uint64_t> blocks;
+
+    Votes(const Seen& seen)
+    {
+        static_assert(kBlocks <= 64, "a bit for each block");
+        const Vec3 size = seen.high - seen.low;
+        const float largest = std::max(size.x, std::max(size.y, size.z));
+        const float half = 0.75f * largest; // openings may lie beyond what is seen
+        cell = 2.0f * half / static_cast<float>(kCells);
+        low = 0.5f * (seen.low + seen.high) - Vec3(half);
+        blocks.resize(std::size_t(kCells) * kCells * kCells);
+    }
+
+    void add(const Flight& flight)
+    {
+        const Vec3 begin = (flight.from - low) / cell;
+        const Vec3 step = flight.direction * 0.5f;
+        for (int k = 1; k < 4 * kCells; ++k)
+        {
+            const Vec3 at = glm::floor(begin + step * static_cast<float>(k));
+            const auto inside = [](float x) { return x >= 0.0f && x < float(kCells); };
+            if (!inside(at.x) || !inside(at.y) || !inside(at.z)) return;
+            const auto index = static_cast<std::size_t>((at.z * kCells + at.y) * kCells + at.x);
+            blocks[index] |= uint64_t(1) << flight.block;
+        }
+    }
+
+    /// Returns the middle of the cell with most votes; of several, the first one.
+    Vec3 mostWanted() const
+    {
+        std::size_t best = 0;
+        int most = 0;
+        for (std::size_t k = 0; k < blocks.size(); ++k)
+        {
+            if (!blocks[k]) continue;
+            const int votes = countBits(static_cast<uint32_t>(blocks[k])) +
+                              countBits(static_cast<uint32_t>(blocks[k] >> 32));
+            if (votes > most) best = k;
+            most = std::max(most, votes);
+        }
+        const auto x = static_cast<float>(best % kCells),
+                   y = static_cast<float>(best / kCells % kCells),
+                   z = static_cast<float>(best / kCells / kCells);
+        return low + (Vec3(x, y, z) + 0.5f) * cell;
+    }
+};
+
+/// Returns axes across which the scene has surfaces, those of most pixels first.
+std::vector<Vec3> normalsOf(const Seen& seen)
+{
+    struct Axis
+    {
+        Vec3 direction;
+        int count;
+    };
+    std::vector<Axis> axes;
+    for (const SeenBlock& block : seen.blocks)
+        for (const int i : lanesIn(block.lanes))
+        {
+            const Vec3 n = laneOf(block.surface.geometricNormal, i);
+            const auto same = std::find_if(
+                axes.begin(), axes.end(),
+                [&](const Axis& axis) { return std::fabs(glm::dot(axis.direction, n)) > 0.99f; });
+            if (same != axes.end())
+                ++same->count;
+            else if (axes.size() < 64)
+                axes.push_back({n, 1});
+        }
+    std::stable_sort(axes.begin(), axes.end(),
+                     [](const Axis& a, const Axis& b) { return a.count > b.count; });
+    std::vector<Vec3> normals;
+    for (std::size_t k = 0; k < axes.size() && k < kMostNormals; ++k)
+        normals.push_back(axes[k].direction);
+    return normals;
+}
+
+/// A plane with axes, and a rectangle on it.
+struct Frame
+{
+    Vec3 at, axisU, axisV, normal;
+};
+
+struct Bounds
+{
+    Vec2 low{kInfinity}, high{-kInfinity};
+
+    void add(Vec2 p)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    bool holds(Vec2 p, float margin) const
+    {
+        return p.x >= low.x - margin && p.x <= high.x + margin && p.y >= low.y - margin &&
+               p.y <= high.y + margin;
+    }
+    float area() const { return (high.x - low.x) * (high.y - low.y); }
+};
+
+/// Returns where a flight crosses the plane along its normal; infinite: it does not.
+Vec2 crossingOf(const Frame& frame, const Flight& flight)
+{
+    const float along = glm::dot(flight.direction, frame.normal);
+    const float t = glm::dot(frame.at - flight.from, frame.normal) / along;
+    if (!(along > 1e-3f) || !(t > 0.0f)) return Vec2(kInfinity);
+    const Vec3 d = flight.from + flight.direction * t - frame.at;
+    return Vec2(glm::dot(d, frame.axisU), glm::dot(d, frame.axisV));
+}
+
+/// Grows a rectangle around the plane's point, by crossings that are no farther than a link from
+/// it. Returns the number of crossings in it.
+int grow(const Frame& frame, const std::vector<Flight>& flights, float link, Bounds& bounds)
+{
+    std::vector<Vec2> rest;
+    for (const Flight& flight : flights)
+    {
+        const Vec2 at = crossingOf(frame, flight);
+        if (at.x < kInfinity) rest.push_back(at);
+    }
+    bounds = Bounds{Vec2(0.0f), Vec2(0.0f)};
+    int count = 0;
+    bool first = true;
+    while (true)
+    {
+        Bounds larger = first ? Bounds() : bounds;
+        const auto outside = std::stable_partition(
+            rest.begin(), rest.end(), [&](Vec2 at) { return !bounds.holds(at, link); });
+        const auto added = static_cast<int>(rest.end() - outside);
+        for (auto at = outside; at != rest.end(); ++at)
+            larger.add(*at);
+        rest.erase(outside, rest.end());
+        if (added == 0) return count;
+        count += added;
+        bounds = larger;
+        first = false;
+    }
+}
+
+struct Opening
+{
+    Frame frame;
+    Bounds bounds;
+    int count = 0;
+    double worth = 0.0; ///< how crowded the flights are in it
+};
+
+/// Keeps the better of a plane's rectangle and the best one so far.
+void tryPlane(const Frame& frame, const std::vector<Flight>& flights, float link, Opening& best)
+{
+    Opening opening{frame, {}, 0, 0.0};
+    opening.count = grow(frame, flights, link, opening.bounds);
+    if (opening.count < 3 || !(opening.bounds.area() > 0.0f)) return;
+    opening.worth = double(opening.count) * opening.count / double(opening.bounds.area());
+    if (opening.worth > best.worth) best = opening;
+}
+
+/// Returns the mean direction of flights that pass near a point.
+Vec3 meanDirection(const std::vector<Flight>& flights, Vec3 at, float near)
+{
+    Vec3 sum(0.0f);
+    for (const Flight& flight : flights)
+    {
+        const Vec3 d = at - flight.from;
+        const float along = glm::dot(d, flight.direction);
+        if (along > 0.0f && glm::dot(d, d) - along * along < near * near) sum += flight.direction;
+    }
+    return sum;
+}
+
+/// Returns the best rectangle among those on planes near a point.
+Opening openingNear(const std::vector<Flight>& flights, const std::vector<Vec3>& normals, Vec3 at,
+                    float cell)
+{
+    constexpr int kSteps = 6; // planes on each side, half a cell apart
+    const Vec3 mean = meanDirection(flights, at, 1.5f * cell);
+    Opening best;
+    for (const Vec3& axis : normals)
+    {
+        const float along = glm::dot(axis, mean);
+        if (!(std::fabs(along) > 0.2f * glm::length(mean))) continue;
+        Frame frame;
+        frame.normal = along > 0.0f ? axis : -axis;
+        frameOf(frame.normal.x, frame.normal.y, frame.normal.z, frame.axisU, frame.axisV);
+        for (const Vec3& other : normals)
+        {
+            const Vec3 across = other - frame.normal * glm::dot(other, frame.normal);
+            if (!(glm::length(across) > 0.3f)) continue;
+            frame.axisU = glm::normalize(across);
+            frame.axisV = glm::cross(frame.normal, frame.axisU);
+            break;
+        }
+        for (int k = -kSteps; k <= kSteps; ++k)
+        {
+            frame.at = at + frame.normal * (0.5f * cell * static_cast<float>(k));
+            tryPlane(frame, flights, 1.5f * cell, best);
+        }
+    }
+    return best;
+}
+
+RectangleLight rectangleOf(const Frame& frame, const Bounds& bounds)
+{
+    RectangleLight r;
+    r.axisU = plainOf(frame.axisU);
+    r.axisV = plainOf(frame.axisV);
+    r.normal = plainOf(frame.normal);
+    r.corner = plainOf(frame.at + frame.axisU * bounds.low.x + frame.axisV * bounds.low.y);
+    r.width = bounds.high.x - bounds.low.x;
+    r.height = bounds.high.y - bounds.low.y;
+    return r;
+}
+
+/// Sends rays through a rectangle, and adds those that meet the sky to the flights.
+int sendThrough(const PassContext& context, const Seen& seen, const Opening& opening,
+                TileCounts& counts, std::vector<Flight>& flights)
+{
+    int sent = 0;
+    for (std::size_t b = 0; b < seen.blocks.size(); ++b)
+    {
+        const SeenBlock& block = seen.blocks[b];
+        LightLanes samples;
+        for (const int i : lanesIn(block.lanes))
+        {
+            float u, v;
+            sobol2(static_cast<uint32_t>(b) * kLanes + static_cast<uint32_t>(i), kSeed, u, v);
+            const Frame& frame = opening.frame;
+            const Vec2 at =
+                opening.bounds.low + (opening.bounds.high - opening.bounds.low) * Vec2(u, v);
+            const Vec3 d = frame.at + frame.axisU * at.x + frame.axisV * at.y -
+                           laneOf(block.surface.position, i);
+            if (glm::dot(d, frame.normal) > 0.0f) setFlight(block, i, glm::normalize(d), samples);
+        }
+        sent += addFlights(context, block, static_cast<int>(b), samples, counts, flights);
+    }
+    return sent;
+}
+
+/// Sets the borders of an opening to those of rays through a larger rectangle.
+void refine(const PassContext& context, const Seen& seen, float cell, TileCounts& counts,
+            Opening& opening)
+{
+    constexpr int kSteps = 8;
+    constexpr float kAsGood = 1.1f;
+    constexpr float kRim = 0.03f; // light may cross where no ray from what is seen did
+    const Vec2 margin = 0.1f * (opening.bounds.high - opening.bounds.low) + 0.5f * cell;
+    Opening wider = opening;
+    wider.bounds.low -= margin;
+    wider.bounds.high += margin;
+    std::vector<Flight> flights;
+    sendThrough(context, seen, wider, counts, flights);
+    if (flights.size() < kLeastFlights) return;
+    const Vec3 at = opening.frame.at;
+    std::array<Opening, 2 * kSteps + 1> planes;
+    float least = kInfinity;
+    for (int k = -kSteps; k <= kSteps; ++k)
+    {
+        Opening& moved = planes[static_cast<std::size_t>(k + kSteps)];
+        moved.frame = opening.frame;
+        moved.frame.at = at + opening.frame.normal * (0.125f * cell * static_cast<float>(k));
+        for (const Flight& flight : flights)
+        {
+            const Vec2 crossing = crossingOf(moved.frame, flight);
+            if (crossing.x < kInfinity) moved.bounds.add(crossing);
+        }
+        least = std::min(least, moved.bounds.area());
+    }
+    // The outermost of the planes that are as good: reveals are then on the inner side.
+    for (const Opening& plane : planes)
+        if (plane.bounds.area() <= kAsGood * least) opening = plane;
+    const Vec2 rim = kRim * (opening.bounds.high - opening.bounds.low);
+    opening.bounds.low -= rim;
+    opening.bounds.high += rim;
+}
+
+/// Returns whether light goes the same way in both directions, and spots on Lambert's surfaces send
+/// the same radiance to all sides.
+bool lightsSpots(const TracedScene& traced)
+{
+    const SceneTraits& traits = traced.traits();
+    if (traits.blended || traits.normalMaps || traits.attenuation || traits.subsurface)
+        return false;
+    for (std::size_t k = 0; k < traced.scene().materials.size(); ++k)
+        if (traced.materials()[static_cast<uint32_t>(k)].partial) return false;
+    return true;
+}
+
+} // namespace
+
+std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, TileCounts& counts)
+{
+    const Seen seen = lookAround(context, counts);
+    std::vector<Flight> flights;
+    int sent = sendAround(context, seen, 0, kFirstRounds, counts, flights);
+    const auto isEasy = [&]
+    { return static_cast<float>(flights.size()) > kEasyToFind * static_cast<float>(sent); };
+    if (flights.empty() || isEasy()) return nullptr;
+    sent += sendAround(context, seen, kFirstRounds, kRounds, counts, flights);
+    if (flights.size() < kLeastFlights || isEasy()) return nullptr;
+
+    const std::vector<Vec3> normals = normalsOf(seen);
+    const auto all = static_cast<float>(flights.size());
+    std::vector<RectangleLight> rectangles;
+    while (rectangles.size() < SkyPortals::kMost &&
+           static_cast<float>(flights.size()) > 0.02f * all && flights.size() >= 3)
+    {
+        Votes votes(seen);
+        for (const Flight& flight : flights)
+            votes.add(flight);
+        Opening opening = openingNear(flights, normals, votes.mostWanted(), votes.cell);
+        if (!(opening.worth > 0.0)) break;
+        refine(context, seen, votes.cell, counts, opening);
+        const auto before = flights.size();
+        flights.erase(std::remove_if(flights.begin(), flights.end(),
+                                     [&](const Flight& flight)
+                                     {
+                                         const Vec2 at = crossingOf(opening.frame, flight);
+                                         return opening.bounds.holds(at, 0.0f);
+                                     }),
+                      flights.end());
+        if (flights.size() == before) break;
+        rectangles.push_back(rectangleOf(opening.frame, opening.bounds));
+    }
+    if (static_cast<float>(flights.size()) > (1.0f - kLeastHeld) * all) return nullptr;
+    return std::make_shared<const SkyPortals>(std::move(rectangles), lightsSpots(*context.traced));
+}
+
+} // namespace osgRayTrace::engine
