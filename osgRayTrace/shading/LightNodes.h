@@ -146,6 +146,24 @@ OSGRAYTRACE_INLINE float radiusAround(PlainVec3 centre, const PlainBounds& b)
     return std::sqrt(dot(half, half));
 }
 
+constexpr float kMostExtent = 1023.0f; ///< of ten bits
+
+/// Returns a half extent in steps of ten bits, rounded up.
+OSGRAYTRACE_INLINE uint32_t extentBits(float extent, float perStep)
+{
+    const float steps = least(extent * perStep + 1.0f, kMostExtent);
+    return static_cast<uint32_t>(static_cast<int32_t>(steps));
+}
+
+/// Returns the half extents of a box as ten bits each, in steps of the half diagonal over 1023.
+OSGRAYTRACE_INLINE uint32_t packedExtents(const PlainBounds& b, float halfDiagonal)
+{
+    const float perStep = kMostExtent / select(halfDiagonal > 0.0f, halfDiagonal, 1.0f);
+    const PlainVec3 half = (b.high - b.low) * 0.5f;
+    return extentBits(half.x, perStep) | (extentBits(half.y, perStep) << 10) |
+           (extentBits(half.z, perStep) << 20);
+}
+
 /// Returns what boundsOf() returns for a parallelogram or a triangle.
 OSGRAYTRACE_INLINE PlainBounds areaBounds(const LightEmitter& emitter)
 {

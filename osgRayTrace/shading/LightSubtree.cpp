@@ -79,7 +79,8 @@ OSGRAYTRACE_INLINE void setBounds(float* at, std::size_t stride, const PlainBoun
 struct NodeLanes
 {
     Vec3Lanes centre, axis, falloff;
-    FloatLanes radius, cosCone, sinCone, cosEmission, intensity, reach;
+    FloatLanes radius, cosCone, cosEmission, intensity, reach;
+    UintLanes extents;
 
     /// Sets a lane. Returns intensity times radius.
     OSGRAYTRACE_INLINE float set(int i, const PlainBounds& b)
@@ -90,7 +91,7 @@ struct NodeLanes
         radius[i] = around;
         setLane(axis, i, b.axis);
         cosCone[i] = b.cosCone;
-        sinCone[i] = sineOf(b.cosCone);
+        extents[i] = packedExtents(b, around);
         cosEmission[i] = b.cosEmission;
         intensity[i] = b.intensity;
         setLane(falloff, i, b.falloff);
@@ -104,8 +105,8 @@ struct NodeLanes
                 radius[i],
                 {axis.x[i], axis.y[i], axis.z[i]},
                 cosCone[i],
-                sinCone[i],
                 cosEmission[i],
+                extents[i],
                 intensity[i],
                 {falloff.x[i], falloff.y[i], falloff.z[i]},
                 next,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/shading/LightTree.h"
 
+#include "osgRayTrace/shading/LightImportance.h"
+
 #include <algorithm>
 
 namespace osgRayTrace::engine

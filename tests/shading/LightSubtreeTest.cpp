@@ -83,10 +83,12 @@ double difference(const LightNode& a, const LightNode& b)
     }
     compare(a.radius, b.radius);
     compare(a.cosCone, b.cosCone);
-    compare(a.sinCone, b.sinCone);
     compare(a.cosEmission, b.cosEmission);
     compare(a.intensity, b.intensity);
     compare(a.reach, b.reach);
+    for (const uint32_t shift : {0u, 10u, 20u}) // a step is 1/1023 of the half diagonal
+        compare(static_cast<float>((a.extents >> shift) & 1023u) / 1023.0f,
+                static_cast<float>((b.extents >> shift) & 1023u) / 1023.0f);
     return largest;
 }
 
