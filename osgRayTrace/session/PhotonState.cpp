@@ -122,7 +122,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
-    std::vector<SeenPlane>().swap(_planes);
+    std::vector<std::unique_ptr<TileLookups>>().swap(_lookups);
     std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
@@ -194,7 +194,8 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     // Whoever sets a radius wants discs of that radius, and a pixel has a footprint if all its
     // passes come from one eye to one scene.
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
-    if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
+    if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f))
+        _lookups.resize(_pixels / kTilePixels);
     _projection = PixelProjection(context.camera);
     // What media scatter towards a ray, and where walks below surfaces leave them, is sampled anew
     // in each pass.
@@ -207,7 +208,7 @@ int PhotonState::sharedPasses() const
 {
     if (_idle || !(_largest > 0.0f)) return 0;
     if (_ended) return PhotonPasses::kFirst;
-    if (!_planes.empty()) return kChoosingPasses;
+    if (!_lookups.empty()) return kChoosingPasses;
     if (!_carried.empty()) return PhotonPasses::kFirst; // they decide whether photons end
     return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
 }
@@ -282,7 +283,7 @@ double PhotonState::secondsOf(int pass) const
 // passes go with n^((alpha - 1) / 2) [Knaus11].
 FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers) const
 {
-    const std::size_t count = _planes.size() / kTilePixels;
+    const std::size_t count = _lookups.size();
     FootprintBiases biases{std::vector<FootprintBias>(count), std::vector<FootprintBias>(count)};
     const double choosing = std::min(passes, kChoosingPasses);
     const double all = std::pow(choosing / passes, 0.5 - 0.5 * static_cast<double>(_alpha));
@@ -290,13 +291,18 @@ FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers)
     const auto addTile = [&](std::size_t tile)
     {
         FootprintBias compared, discs; // neighbours of the lists share cache lines
-        for (std::size_t p = tile * kTilePixels; p < (tile + 1) * kTilePixels; ++p)
+        if (!_lookups[tile]) return;
+        const TileLookups& lookups = *_lookups[tile];
+        for (std::size_t p = 0; p < kTilePixels; ++p)
         {
-            const SeenPlane& known = _planes[p];
+            const SeenPlane& known = lookups.planes[p];
             if (known.compared == 0) continue;
             const double sum = static_cast<double>(known.difference);
             const double squares = static_cast<double>(known.squares);
-            const double share = static_cast<double>(known.undecided + known.compared) / passes;
+            const double share =
+                known.lookup == PixelLookup::Footprint
+                    ? lookups.discShare(p, passes)
+                    : static_cast<double>(known.undecided + known.compared) / passes;
             compared.addPixel(known.compared, sum, squares, share);
             if (known.lookup != PixelLookup::Footprint)
                 discs.addPixel(known.compared, sum, squares, later);
@@ -352,7 +358,7 @@ std::size_t PhotonState::viewBytes() const
 {
     std::size_t bytes =
         _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
-        _planes.size() * sizeof(SeenPlane) + _differences.size() * sizeof(DiscDifferences);
+        _lookups.size() * sizeof(TileLookups) + _differences.size() * sizeof(DiscDifferences);
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
     return bytes;
@@ -371,7 +377,14 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.pointStride = static_cast<uint32_t>(
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     gathered.separate = _local;
-    if (!_planes.empty()) gathered.planes = &_planes[first];
+    if (!_lookups.empty())
+    {
+        std::unique_ptr<TileLookups>& lookups = _lookups[static_cast<std::size_t>(tile)];
+        if (!lookups) lookups = std::make_unique<TileLookups>();
+        gathered.planes = lookups->planes;
+        gathered.wantsFirstHits = mayForgetDiscs(pass);
+        gathered.balances = pass >= kChoosingPasses && lookups->leaks;
+    }
     gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);
     for (std::size_t p = 0; p < kTilePixels; ++p)
@@ -388,6 +401,13 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
+    if (!_lookups.empty())
+    {
+        TileLookups& lookups = *_lookups[static_cast<std::size_t>(tile)];
+        if (gathered.wantsFirstHits) lookups.forgetDiscs(pass, gathered, rgba);
+        if (pass + 1 == kChoosingPasses) lookups.endChoosing();
+        if (gathered.balances) lookups.takeLeaked(pass, gathered.leaked, rgba);
+    }
     if (!_carried.empty())
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;

@@ -1,0 +1,110 @@
+// TileLookupsTest.cpp - the light of discs that were wrong leaves the image again.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+
+#include "osgRayTrace/session/TileLookups.h"
+
+#include <algorithm>
+#include <memory>
+
+using namespace osgRayTrace::engine;
+
+namespace
+{
+
+constexpr float kDisc = 3.0f, kFootprint = 1.0f; ///< light of the look-ups
+constexpr std::size_t kPixel = 37;
+
+/// Sums up passes of a pixel that changes over at some pass, half by half.
+struct Pixel
+{
+    explicit Pixel(int passOfChange, float disc = kDisc) : change(passOfChange), discLight(disc) {}
+
+    void add(int pass)
+    {
+        auto gathered = std::make_unique<GatheredPhotons>();
+        const float light = pass < change ? discLight : kFootprint;
+        gathered->atFirstHits[kPixel] = Vec3(light);
+        if (pass + 1 >= change) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+        TileRgba rgba = {};
+        rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+        lookups->forgetDiscs(pass, *gathered, rgba);
+        if (pass + 1 == kChoosingPasses) lookups->endChoosing();
+        sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+    }
+
+    int change;
+    float discLight;
+    std::unique_ptr<TileLookups> lookups = std::make_unique<TileLookups>();
+    double sums[2] = {};
+};
+
+} // namespace
+
+TEST_CASE("tile lookups: nothing is left of discs that were wrong, in either half", "[session]")
+{
+    for (int change = 1; change <= kChoosingPasses; ++change)
+    {
+        Pixel wrong(change), right(change, kFootprint);
+        for (int pass = 0; pass < 64; ++pass)
+        {
+            wrong.add(pass);
+            right.add(pass);
+            const int passes = pass + 1;
+            CAPTURE(change, passes);
+            // The weights of passes are their number all the time.
+            CHECK(right.sums[0] + right.sums[1] == Approx(passes * kFootprint).epsilon(1e-5));
+            if (passes < change) continue;
+            const double share = wrong.lookups->discShare(kPixel, passes);
+            const double mean = (wrong.sums[0] + wrong.sums[1]) / passes;
+            CHECK(mean == Approx(share * kDisc + (1.0 - share) * kFootprint).epsilon(1e-5));
+            CHECK(share <= std::min(1.0, double(change) / passes));
+            if (mayForgetDiscs(passes)) continue;
+            CHECK(share == 0.0);
+            for (int half = 0; half < 2; ++half)
+                CHECK(wrong.sums[half] ==
+                      Approx((passes + 1 - half) / 2 * kFootprint).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", "[session]")
+{
+    for (const float disc : {1e-6f, 0.3f, 1e6f})
+    {
+        Pixel pixel(11, disc);
+        double sums[2] = {};
+        for (int pass = 0; pass < 64; ++pass)
+        {
+            auto gathered = std::make_unique<GatheredPhotons>();
+            const float light = pass < pixel.change ? disc * float(1 + pass % 3) : 0.0f;
+            gathered->atFirstHits[kPixel] = Vec3(light);
+            if (pass + 1 >= pixel.change)
+                pixel.lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+            TileRgba rgba = {};
+            rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+            pixel.lookups->forgetDiscs(pass, *gathered, rgba);
+            sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+            CHECK(sums[pass & 1] >= 0.0);
+        }
+        CHECK(sums[0] + sums[1] < 1e-4 * double(disc));
+    }
+}
+
+TEST_CASE("tile lookups: a pixel that sees another plane in the end keeps what it has", "[session]")
+{
+    Pixel pixel(6, kFootprint);
+    for (int pass = 0; pass < 9; ++pass)
+        pixel.add(pass);
+    pixel.change = 1000; // discs from now on
+    pixel.lookups->planes[kPixel].lookup = PixelLookup::Disc;
+    for (int pass = 9; pass < 64; ++pass)
+    {
+        auto gathered = std::make_unique<GatheredPhotons>();
+        gathered->atFirstHits[kPixel] = Vec3(kFootprint);
+        TileRgba rgba = {};
+        rgba[kPixel / kLanes].g[kPixel % kLanes] = kFootprint;
+        pixel.lookups->forgetDiscs(pass, *gathered, rgba);
+        CHECK(rgba[kPixel / kLanes].g[kPixel % kLanes] == kFootprint);
+    }
+}
