@@ -353,7 +353,8 @@ std::size_t PhotonPasses::keptBytes() const
 std::size_t PhotonPasses::bytes() const
 {
     std::lock_guard<CheckedMutex> lock(_mutex);
-    return keptBytes();
+    const std::size_t flights = _fewFlights.capacity() + _flights.capacity();
+    return keptBytes() + _memory.bytes() + flights * sizeof(PhotonFlight);
 }
 
 bool PhotonPasses::keeps(int index) const

@@ -276,11 +276,9 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-// Passes that may choose count alike for all pixels: whether a pixel has changed over to its
-// footprint hangs on its differences, and only the sum over all pixels has no bias then. Pixels
-// that still take discs are biased in later passes, too. Bias is taken to go with the radius,
-// between its square for smooth light and its root at a fold caustic; means of the radius over n
-// passes go with n^((alpha - 1) / 2) [Knaus11].
+// Pixels that still take discs are biased in later passes, too. Bias is taken to go with the
+// radius, between its square for smooth light and its root at a fold caustic; means of the radius
+// over n passes go with n^((alpha - 1) / 2) [Knaus11].
 FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers) const
 {
     const std::size_t count = _lookups.size();
@@ -291,22 +289,7 @@ FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers)
     const auto addTile = [&](std::size_t tile)
     {
         FootprintBias compared, discs; // neighbours of the lists share cache lines
-        if (!_lookups[tile]) return;
-        const TileLookups& lookups = *_lookups[tile];
-        for (std::size_t p = 0; p < kTilePixels; ++p)
-        {
-            const SeenPlane& known = lookups.planes[p];
-            if (known.compared == 0) continue;
-            const double sum = static_cast<double>(known.difference);
-            const double squares = static_cast<double>(known.squares);
-            const double share =
-                known.lookup == PixelLookup::Footprint
-                    ? lookups.discShare(p, passes)
-                    : static_cast<double>(known.undecided + known.compared) / passes;
-            compared.addPixel(known.compared, sum, squares, share);
-            if (known.lookup != PixelLookup::Footprint)
-                discs.addPixel(known.compared, sum, squares, later);
-        }
+        if (_lookups[tile]) _lookups[tile]->addBiases(passes, later, compared, discs);
         biases.compared[tile] = compared;
         biases.later[tile] = discs;
     };
@@ -382,8 +365,8 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         std::unique_ptr<TileLookups>& lookups = _lookups[static_cast<std::size_t>(tile)];
         if (!lookups) lookups = std::make_unique<TileLookups>();
         gathered.planes = lookups->planes;
-        gathered.wantsFirstHits = mayForgetDiscs(pass);
-        gathered.balances = pass >= kChoosingPasses && lookups->leaks;
+        gathered.wantsFirstHits = TileLookups::repays(pass);
+        gathered.balances = lookups->balances(pass);
     }
     gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);
@@ -401,13 +384,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
-    if (!_lookups.empty())
-    {
-        TileLookups& lookups = *_lookups[static_cast<std::size_t>(tile)];
-        if (gathered.wantsFirstHits) lookups.forgetDiscs(pass, gathered, rgba);
-        if (pass + 1 == kChoosingPasses) lookups.endChoosing();
-        if (gathered.balances) lookups.takeLeaked(pass, gathered.leaked, rgba);
-    }
+    if (!_lookups.empty()) _lookups[static_cast<std::size_t>(tile)]->finish(pass, gathered, rgba);
     if (!_carried.empty())
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;

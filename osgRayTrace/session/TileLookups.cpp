@@ -1,9 +1,29 @@
-// TileLookups.cpp - takes discs that were wrong out of the image again. Layer: session.
+// TileLookups.cpp - takes light of discs that were wrong out of the image again. Layer: session.
 // SPDX-License-Identifier: MIT
+//
+// A pixel that changes over to its footprint at pass c has c_h passes of each half h of the film by
+// discs, whose light is D_h. Each of the next kRepayingPasses c_h = n passes of that half, whose
+// footprints have the light F, adds
+//
+//   F + (c_h F - D_h) / n
+//
+// in place of F. The weights of all passes add up to their number at any time, and after these
+// passes nothing of D_h is left. The halves stay independent of each other.
+//
+// If all pixels took discs, these would spread light among pixels, but lose none of it. Once the
+// pixels on a sharp caustic have changed over, they show all of their light, and discs beside them
+// show a part of it again. So the discs of a tile's pixels may have no more light together than the
+// photons in these pixels' footprints: in each pass the rest,
+//
+//   leaked = sum over pixels with discs of (D - F),
+//
+// is taken from these pixels, from each as much as its share of their light by discs in the first
+// passes. These shares do not depend on the pass, so the tile's light has no bias. The sum has
+// little noise, as most photons are in it on both sides.
 #include "osgRayTrace/session/TileLookups.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 
 namespace osgRayTrace::engine
 {
@@ -14,83 +34,118 @@ namespace
 /// What is left of a disc's light in the end is 0 but for rounding, and never less.
 constexpr float kRoundedDown = 1.0f - 0x1p-19f;
 
+/// A pixel that has not found its disc wrong takes its footprint all the same if so many of its
+/// eight neighbours do: its disc reaches into them.
+constexpr int kChangedNeighbours = 3;
+
+/// Discs leak if one of so many of the tile's pixels has changed over.
+constexpr int kLeakingShare = 16;
+
+/// What leaks in the mean of the first kChoosingPasses over what leaks in the passes that make up
+/// for them. Blur of smooth light goes with the square of the radius, that of pass i with
+/// (i + 1)^(-1/3) for the usual photon-alpha of 2/3 [Knaus11].
+constexpr float kEarlierLeak = 1.85f;
+
 /// Returns how many of the first passes belong to a half.
 int passesOfHalf(int passes, int half)
 {
     return (passes + 1 - half) / 2;
 }
 
+void addLight(std::size_t pixel, Vec3 light, RgbaLanes* rgba)
+{
+    RgbaLanes& block = rgba[pixel / kLanes];
+    block.r[pixel % kLanes] += light.x;
+    block.g[pixel % kLanes] += light.y;
+    block.b[pixel % kLanes] += light.z;
+}
+
 } // namespace
+
+void TileLookups::finish(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba)
+{
+    if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
+    if (pass + 1 == kChoosingPasses) endChoosing();
+    if (gathered.balances) takeLeaked(pass, gathered.leaked, rgba);
+}
 
 void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba)
 {
     const int half = pass & 1;
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
-        const bool isFootprint = planes[p].lookup == PixelLookup::Footprint;
-        if (changes[p] == 0 && pass < kChoosingPasses)
+        const bool takesFootprint = planes[p].lookup == PixelLookup::Footprint;
+        if (_changes[p] == 0 && pass < kChoosingPasses)
         {
-            discs[half][p] += gathered.atFirstHits[p];
-            if (isFootprint) changes[p] = static_cast<uint8_t>(pass + 1);
+            _discs[half][p] += gathered.atFirstHits[p];
+            if (takesFootprint) _changes[p] = static_cast<uint8_t>(pass + 1);
             continue;
         }
-        if (changes[p] == 0 || !isFootprint || pass < changes[p]) continue;
-        const int wrong = passesOfHalf(changes[p], half);
+        if (!takesFootprint) continue;
+        const int wrong = passesOfHalf(_changes[p], half);
         if (pass / 2 >= wrong * (1 + kRepayingPasses)) continue;
-        const Vec3 added =
-            (gathered.atFirstHits[p] - discs[half][p] * (kRoundedDown / float(wrong))) *
-            (1.0f / kRepayingPasses);
-        RgbaLanes& block = rgba[p / kLanes];
-        block.r[p % kLanes] += added.x;
-        block.g[p % kLanes] += added.y;
-        block.b[p % kLanes] += added.z;
+        const Vec3 disc = _discs[half][p] * (kRoundedDown / static_cast<float>(wrong));
+        addLight(p, (gathered.atFirstHits[p] - disc) * (1.0f / kRepayingPasses), rgba);
     }
 }
 
+/// Changes pixels over among others that have changed, and tells whether the rest leaks.
 void TileLookups::endChoosing()
 {
-    static const int par = atoi(getenv("SK_PAR") ? getenv("SK_PAR") : "3");
-    bool changed[kTileSize + 2][kTileSize + 2] = {};
-    for (int p = 0; p < kTilePixels; ++p)
-        changed[laneY(p / kLanes, p % kLanes) + 1][laneX(p / kLanes, p % kLanes) + 1] =
-            planes[p].lookup == PixelLookup::Footprint;
-    int count = 0;
-    for (int p = 0; p < kTilePixels; ++p)
+    int changed[kTileSize + 2][kTileSize + 2] = {}; // with a margin
+    const auto placeOf = [&](std::size_t p)
     {
-        if (planes[p].lookup == PixelLookup::Compared)
+        const int block = static_cast<int>(p) / kLanes, lane = static_cast<int>(p) % kLanes;
+        return &changed[laneY(block, lane) + 1][laneX(block, lane) + 1];
+    };
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+        *placeOf(p) = planes[p].lookup == PixelLookup::Footprint;
+    int count = 0;
+    float light = 0.0f;
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const int* const place = placeOf(p);
+        int neighbours = 0;
+        for (const int* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
+            neighbours += row[-1] + row[0] + row[1];
+        if (planes[p].lookup == PixelLookup::Compared && neighbours >= kChangedNeighbours)
         {
-            const int x = laneX(p / kLanes, p % kLanes), y = laneY(p / kLanes, p % kLanes);
-            int neighbours = 0;
-            for (int row = y; row <= y + 2; ++row)
-                for (int column = x; column <= x + 2; ++column)
-                    neighbours += changed[row][column];
-            if (neighbours >= par)
-            {
-                planes[p].lookup = PixelLookup::Footprint;
-                changes[p] = kChoosingPasses;
-            }
+            planes[p].lookup = PixelLookup::Footprint;
+            _changes[p] = kChoosingPasses;
         }
         count += planes[p].lookup == PixelLookup::Footprint;
         if (planes[p].lookup == PixelLookup::Compared)
-            discLight += luminance(discs[0][p] + discs[1][p]);
+            light += luminance(_discs[0][p] + _discs[1][p]);
     }
-    leaks = count >= kTilePixels / 16 && discLight > 0.0f;
-    static const bool off = getenv("SK_NOLEAK");
-    if (off) leaks = false;
+    if (count * kLeakingShare >= kTilePixels && std::isfinite(light)) _discLight = light;
 }
 
 void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 {
-    static const float kappa = atof(getenv("SK_KAPPA") ? getenv("SK_KAPPA") : "1.33");
-    const float share = (mayForgetDiscs(pass) ? 1.0f + kappa / kRepayingPasses : 1.0f) / discLight;
+    const float passes = repays(pass) ? 1.0f + kEarlierLeak / kRepayingPasses : 1.0f;
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         if (planes[p].lookup != PixelLookup::Compared) continue;
-        const Vec3 taken = leaked * (luminance(discs[0][p] + discs[1][p]) * share);
-        RgbaLanes& block = rgba[p / kLanes];
-        block.r[p % kLanes] -= taken.x;
-        block.g[p % kLanes] -= taken.y;
-        block.b[p % kLanes] -= taken.z;
+        const float share = luminance(_discs[0][p] + _discs[1][p]) / _discLight;
+        addLight(p, leaked * (-passes * share), rgba);
+    }
+}
+
+// Whether a pixel has changed over hangs on its differences, so those of all pixels count: only
+// their sum has no bias.
+void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compared,
+                            FootprintBias& discs) const
+{
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const SeenPlane& known = planes[p];
+        if (known.compared == 0) continue;
+        const bool changed = known.lookup == PixelLookup::Footprint;
+        const double sum = static_cast<double>(known.difference);
+        const double squares = static_cast<double>(known.squares);
+        const double chose = static_cast<double>(known.undecided + known.compared) / passes;
+        compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
+        if (!changed) discs.addPixel(known.compared, sum, squares, laterShare);
     }
 }
 
@@ -99,9 +154,9 @@ double TileLookups::discShare(std::size_t pixel, int passes) const
     double left = 0.0;
     for (int half = 0; half < 2; ++half)
     {
-        const int wrong = passesOfHalf(std::min(int(changes[pixel]), passes), half);
+        const int wrong = passesOfHalf(std::min<int>(_changes[pixel], passes), half);
         const int repaid = passesOfHalf(passes, half) - wrong;
-        left += std::max(0.0, wrong - double(repaid) / kRepayingPasses);
+        left += std::max(0.0, wrong - static_cast<double>(repaid) / kRepayingPasses);
     }
     return left / passes;
 }

@@ -15,6 +15,13 @@ namespace
 constexpr float kDisc = 3.0f, kFootprint = 1.0f; ///< light of the look-ups
 constexpr std::size_t kPixel = 37;
 
+std::unique_ptr<GatheredPhotons> gatheredIn(int pass)
+{
+    auto gathered = std::make_unique<GatheredPhotons>();
+    gathered->wantsFirstHits = TileLookups::repays(pass);
+    return gathered;
+}
+
 /// Sums up passes of a pixel that changes over at some pass, half by half.
 struct Pixel
 {
@@ -22,14 +29,13 @@ struct Pixel
 
     void add(int pass)
     {
-        auto gathered = std::make_unique<GatheredPhotons>();
+        const auto gathered = gatheredIn(pass);
         const float light = pass < change ? discLight : kFootprint;
         gathered->atFirstHits[kPixel] = Vec3(light);
         if (pass + 1 >= change) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
         TileRgba rgba = {};
         rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
-        lookups->forgetDiscs(pass, *gathered, rgba);
-        if (pass + 1 == kChoosingPasses) lookups->endChoosing();
+        lookups->finish(pass, *gathered, rgba);
         sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
     }
 
@@ -59,7 +65,7 @@ TEST_CASE("tile lookups: nothing is left of discs that were wrong, in either hal
             const double mean = (wrong.sums[0] + wrong.sums[1]) / passes;
             CHECK(mean == Approx(share * kDisc + (1.0 - share) * kFootprint).epsilon(1e-5));
             CHECK(share <= std::min(1.0, double(change) / passes));
-            if (mayForgetDiscs(passes)) continue;
+            if (TileLookups::repays(passes)) continue;
             CHECK(share == 0.0);
             for (int half = 0; half < 2; ++half)
                 CHECK(wrong.sums[half] ==
@@ -76,14 +82,14 @@ TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", 
         double sums[2] = {};
         for (int pass = 0; pass < 64; ++pass)
         {
-            auto gathered = std::make_unique<GatheredPhotons>();
+            const auto gathered = gatheredIn(pass);
             const float light = pass < pixel.change ? disc * float(1 + pass % 3) : 0.0f;
             gathered->atFirstHits[kPixel] = Vec3(light);
             if (pass + 1 >= pixel.change)
                 pixel.lookups->planes[kPixel].lookup = PixelLookup::Footprint;
             TileRgba rgba = {};
             rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
-            pixel.lookups->forgetDiscs(pass, *gathered, rgba);
+            pixel.lookups->finish(pass, *gathered, rgba);
             sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
             CHECK(sums[pass & 1] >= 0.0);
         }
@@ -100,11 +106,11 @@ TEST_CASE("tile lookups: a pixel that sees another plane in the end keeps what i
     pixel.lookups->planes[kPixel].lookup = PixelLookup::Disc;
     for (int pass = 9; pass < 64; ++pass)
     {
-        auto gathered = std::make_unique<GatheredPhotons>();
+        const auto gathered = gatheredIn(pass);
         gathered->atFirstHits[kPixel] = Vec3(kFootprint);
         TileRgba rgba = {};
         rgba[kPixel / kLanes].g[kPixel % kLanes] = kFootprint;
-        pixel.lookups->forgetDiscs(pass, *gathered, rgba);
+        pixel.lookups->finish(pass, *gathered, rgba);
         CHECK(rgba[kPixel / kLanes].g[kPixel % kLanes] == kFootprint);
     }
 }
