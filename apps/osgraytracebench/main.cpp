@@ -277,6 +277,10 @@ Run addReport(CLI::App& mode)
               "longest budget of a picture [s]");
     mode.add_option("--width", options->width, "width of the pictures [pixels]; 0: 128, quick 32")
         ->check(CLI::Range(0, 4096));
+    mode.add_option("--seeds", options->seeds,
+                    "pictures of each method of a quick report, each with another seed; 0: 8 with "
+                    "photons, else 16")
+        ->check(CLI::Range(0, 100000));
     mode.add_option("--only", options->only,
                     "scenes whose name holds this; \"samplers\", \"schedules\" for these alone");
     mode.add_option("--expectations", options->expectations,

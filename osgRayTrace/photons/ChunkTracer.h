@@ -16,7 +16,7 @@
 namespace osgRayTrace::engine
 {
 
-/// This is the number of photons that are followed together.
+/// This is the largest number of photons that are followed together.
 constexpr uint32_t kPhotonChunk = 2048;
 
 /// The number of collisions between two surfaces after which a photon ends, and of surfaces.

@@ -55,6 +55,12 @@ void PhotonMemory::giveBack(Block block) noexcept
     }
 }
 
+std::size_t PhotonMemory::bytes() const
+{
+    const std::lock_guard<std::mutex> lock(_mutex);
+    return _free.size() * kSpanPhotons * sizeof(Photon);
+}
+
 PhotonBlocks::~PhotonBlocks()
 {
     // The next list takes the blocks in the order in which this one took them.

@@ -78,11 +78,13 @@ public:
     /// Keeps a block for take(), or frees it.
     void giveBack(Block block) noexcept;
 
+    std::size_t bytes() const; ///< memory of the blocks that are kept for the next lists
+
 private:
     /// No more is kept between passes.
     static constexpr std::size_t kMostBytes = std::size_t(1) << 27;
 
-    std::mutex _mutex;
+    mutable std::mutex _mutex;
     std::vector<Block> _free;
 };
 

@@ -361,7 +361,8 @@ std::size_t PhotonPasses::keptBytes() const
 std::size_t PhotonPasses::bytes() const
 {
     std::lock_guard<CheckedMutex> lock(_mutex);
-    return keptBytes() + _mapMemory->bytes();
+    const std::size_t flights = _fewFlights.capacity() + _flights.capacity();
+    return keptBytes() + _memory.bytes() + _mapMemory->bytes() + flights * sizeof(PhotonFlight);
 }
 
 bool PhotonPasses::keeps(int index) const

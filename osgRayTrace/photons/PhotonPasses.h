@@ -107,7 +107,9 @@ public:
     bool keeps(int index) const;
 
     uint64_t tracedRays() const; ///< rays of all passes that were traced
-    std::size_t bytes() const;   ///< memory of the maps that are kept, and that of the next map
+    /// Returns the memory of the maps that are kept, and of what the next passes use again: blocks
+    /// of photons, a map, and flights from which openings are learnt.
+    std::size_t bytes() const;
     static constexpr std::size_t kMostBytes = std::size_t(1) << 29;
     static constexpr int kFirst = 4; ///< number of passes that each image begins with
 

@@ -131,6 +131,23 @@ void ChunkTracer::trace(uint32_t first, uint32_t count)
     }
 }
 
+namespace
+{
+
+/// Returns how many photons of a pass are followed together: many, which fill the lanes of more
+/// blocks, but so few that a pass has work for some tens of threads. The number of threads is left
+/// out, as no bit of a picture may depend on it.
+uint32_t chunkOf(uint32_t photons)
+{
+    constexpr uint32_t kLeastChunk = 512, kLeastChunks = 128;
+    uint32_t chunk = kPhotonChunk;
+    while (chunk > kLeastChunk && photons / chunk < kLeastChunks)
+        chunk /= 2;
+    return chunk;
+}
+
+} // namespace
+
 TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& lights,
                            const PhotonEmitter& emitter, const PhotonPassOptions& options, int pass,
                            const Workers& workers, PhotonMemory& memory,
@@ -144,7 +161,8 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
 
     // The photons' sequences differ from those of pixels, whose seeds are hashed otherwise.
     const uint32_t seed = hash(hash(options.seed, 0x70686f74u), static_cast<uint32_t>(pass));
-    const uint32_t count = (options.photons + kPhotonChunk - 1) / kPhotonChunk;
+    const uint32_t each = chunkOf(options.photons);
+    const uint32_t count = (options.photons + each - 1) / each;
     const std::vector<Material>& materials = traced.scene().materials;
     const auto culls = [](const Material& material) { return material.cullsAllRays; };
     const auto isShadowless = [](const Light& light) { return !light.castsShadows; };
@@ -161,16 +179,16 @@ TracedPhotons tracePhotons(const TracedScene& traced, const std::vector<Light>& 
                              std::any_of(materials.begin(), materials.end(), culls),
                              std::any_of(lights.begin(), lights.end(), isShadowless)};
     std::vector<PhotonChunk> chunks(count);
-    workers.forEach(count,
-                    [&](std::size_t c)
-                    {
-                        const uint32_t first = static_cast<uint32_t>(c) * kPhotonChunk;
-                        PhotonChunk chunk; // neighbours of the list share cache lines
-                        chunk.photons = PhotonBlocks(memory);
-                        ChunkTracer(inputs, chunk)
-                            .trace(first, std::min(kPhotonChunk, options.photons - first));
-                        chunks[c] = std::move(chunk);
-                    });
+    workers.forEach(
+        count,
+        [&](std::size_t c)
+        {
+            const uint32_t first = static_cast<uint32_t>(c) * each;
+            PhotonChunk chunk; // neighbours of the list share cache lines
+            chunk.photons = PhotonBlocks(memory);
+            ChunkTracer(inputs, chunk).trace(first, std::min(each, options.photons - first));
+            chunks[c] = std::move(chunk);
+        });
     result.emitted.assign(emitter.guideBins(), 0u);
     result.photons = PhotonBlocks(memory);
     for (PhotonChunk& chunk : chunks)

@@ -23,7 +23,7 @@ namespace
 // Whoever adds a member to one of these adds it below, too.
 static_assert(sizeof(SeenPlane) == 28 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
               sizeof(SeenPoint) == 24);
-static_assert(sizeof(GatheredPhotons) == 5592);
+static_assert(sizeof(GatheredPhotons) == 8680);
 #endif
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
@@ -57,8 +57,8 @@ void putWanted(WireWriter& out, const TilePhotons& photons)
     const GatheredPhotons& g = photons.gathered;
     const bool hasRadii =
         std::any_of(g.radius, g.radius + kTilePixels, [](float r) { return r != 0.0f; });
-    out(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, g.pointStride,
-        hasRadii);
+    out(g.choosesPlanes, g.separate, g.wantsFirstHits, g.balances, g.comparedBlock, g.seenFirst, g.seenStride,
+        g.pointStride, hasRadii);
     if (hasRadii) out.append(g.radius, sizeof g.radius);
     out(!photons.planes.empty());
     putPlanes(out, photons);
@@ -68,8 +68,8 @@ void takeWanted(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasRadii = false, hasPlanes = false;
-    in(g.choosesPlanes, g.separate, g.comparedBlock, g.seenFirst, g.seenStride, g.pointStride,
-       hasRadii);
+    in(g.choosesPlanes, g.separate, g.wantsFirstHits, g.balances, g.comparedBlock, g.seenFirst, g.seenStride,
+       g.pointStride, hasRadii);
     if (hasRadii) in.copy(g.radius, sizeof g.radius);
     in(hasPlanes);
     takePlanes(in, hasPlanes, photons);
@@ -80,10 +80,11 @@ void putFound(WireWriter& out, const TilePhotons& photons)
 {
     const GatheredPhotons& g = photons.gathered;
     const bool hasPlanes = g.choosesPlanes && !photons.planes.empty();
-    out(g.separate, g.carried, g.comparedBlock, hasPlanes);
+    out(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.comparedBlock, hasPlanes);
     out.append(g.radius, sizeof g.radius);
     if (g.separate) out.append(g.count, sizeof g.count);
     if (g.separate) out.append(g.flux, sizeof g.flux);
+    if (g.wantsFirstHits) out.append(g.atFirstHits, sizeof g.atFirstHits);
     if (g.comparedBlock >= 0) out.append(g.differences, sizeof g.differences);
     if (hasPlanes) putPlanes(out, photons);
     out.array(g.seen);
@@ -94,10 +95,11 @@ void takeFound(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasPlanes = false;
-    in(g.separate, g.carried, g.comparedBlock, hasPlanes);
+    in(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.comparedBlock, hasPlanes);
     in.copy(g.radius, sizeof g.radius);
     if (g.separate) in.copy(g.count, sizeof g.count);
     if (g.separate) in.copy(g.flux, sizeof g.flux);
+    if (g.wantsFirstHits) in.copy(g.atFirstHits, sizeof g.atFirstHits);
     if (g.comparedBlock >= 0) in.copy(g.differences, sizeof g.differences);
     takePlanes(in, hasPlanes, photons);
     in.array(g.seen);

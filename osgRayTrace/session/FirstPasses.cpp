@@ -28,10 +28,10 @@ void FirstPasses::add(std::size_t number, int pass, const RgbaLanes* rgba)
     }
 }
 
-void FirstPasses::replace(std::size_t number, int pass, RgbaLanes* rgba) const
+int FirstPasses::replace(std::size_t number, int pass, RgbaLanes* rgba) const
 {
+    if (pass < kCount || pass >= 2 * kCount || !areComplete(number)) return 1;
     const Tile& tile = _tiles[number];
-    if (tile.passes != (1u << kCount) - 1u) return;
     for (int b = 0; b < kTileBlocks; ++b)
     {
         const Vec3Lanes& sum = tile.sums[pass & 1][b];
@@ -42,6 +42,7 @@ void FirstPasses::replace(std::size_t number, int pass, RgbaLanes* rgba) const
             rgba[b].b[i] = 2.0f * rgba[b].b[i] - 0.5f * sum.z[i];
         }
     }
+    return 2;
 }
 
 } // namespace osgRayTrace::engine

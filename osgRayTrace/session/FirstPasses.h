@@ -33,9 +33,15 @@ public:
     /// rgba: kTileBlocks blocks.
     void add(std::size_t tile, int pass, const RgbaLanes* rgba);
 
-    /// Lets a pass from kCount to 2 kCount, the latter excluded, replace one of the first. Does
-    /// nothing if one of these has not been added.
-    void replace(std::size_t tile, int pass, RgbaLanes* rgba) const;
+    /// Returns whether the tile has all of the first passes.
+    bool areComplete(std::size_t tile) const
+    {
+        return !empty() && _tiles[tile].passes == (1u << kCount) - 1u;
+    }
+
+    /// Lets a pass replace one of the first. Returns how often the pass counts: twice if it is one
+    /// from kCount to 2 kCount, the latter excluded, and the first ones are complete; else once.
+    int replace(std::size_t tile, int pass, RgbaLanes* rgba) const;
 
 private:
     struct Tile

@@ -60,6 +60,8 @@ void SessionState::takePhotons(int tile, int pass, const TilePhotons& traced, fl
     std::copy(found.count, found.count + kTilePixels, gathered.count);
     std::copy(found.flux, found.flux + kTilePixels, gathered.flux);
     gathered.carried = found.carried;
+    gathered.leaked = found.leaked;
+    std::copy(found.atFirstHits, found.atFirstHits + kTilePixels, gathered.atFirstHits);
     std::memcpy(gathered.differences, found.differences, sizeof gathered.differences);
     if (gathered.planes && gathered.choosesPlanes)
         std::copy(traced.planes.begin(), traced.planes.end(), gathered.planes);

@@ -122,7 +122,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
-    std::vector<SeenPlane>().swap(_planes);
+    std::vector<std::unique_ptr<TileLookups>>().swap(_lookups);
     std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
@@ -195,9 +195,10 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     // Whoever sets a radius wants discs of that radius, and a pixel has a footprint if all its
     // passes come from one eye to one scene.
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
-    if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f)) _planes.resize(_pixels);
+    if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f))
+        _lookups.resize(_pixels / kTilePixels);
     static_assert(FirstPasses::kCount == PhotonPasses::kFirst);
-    if (!_planes.empty() && !_points.empty()) _before.reset(_pixels / kTilePixels);
+    if (!_lookups.empty() && !_points.empty()) _before.reset(_pixels / kTilePixels);
     _projection = PixelProjection(context.camera);
     // What media scatter towards a ray, and where walks below surfaces leave them, is sampled anew
     // in each pass.
@@ -210,7 +211,7 @@ int PhotonState::sharedPasses() const
 {
     if (_idle || !(_largest > 0.0f)) return 0;
     if (_ended) return PhotonPasses::kFirst;
-    if (!_planes.empty()) return kChoosingPasses;
+    if (!_lookups.empty()) return kChoosingPasses;
     if (!_carried.empty()) return PhotonPasses::kFirst; // they decide whether photons end
     return _guides || !_seenSquares.empty() ? PhotonPasses::kFirst + 1 : 1;
 }
@@ -279,14 +280,12 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-// Passes that may choose count alike for all pixels: whether a pixel has changed over to its
-// footprint hangs on its differences, and only the sum over all pixels has no bias then. Pixels
-// that still take discs are biased in later passes, too. Bias is taken to go with the radius,
-// between its square for smooth light and its root at a fold caustic; means of the radius over n
-// passes go with n^((alpha - 1) / 2) [Knaus11].
+// Pixels that still take discs are biased in later passes, too. Bias is taken to go with the
+// radius, between its square for smooth light and its root at a fold caustic; means of the radius
+// over n passes go with n^((alpha - 1) / 2) [Knaus11].
 FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers) const
 {
-    const std::size_t count = _planes.size() / kTilePixels;
+    const std::size_t count = _lookups.size();
     FootprintBiases biases{std::vector<FootprintBias>(count), std::vector<FootprintBias>(count)};
     const double choosing = std::min(passes, kChoosingPasses);
     const double all = std::pow(choosing / passes, 0.5 - 0.5 * static_cast<double>(_alpha));
@@ -294,17 +293,7 @@ FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers)
     const auto addTile = [&](std::size_t tile)
     {
         FootprintBias compared, discs; // neighbours of the lists share cache lines
-        for (std::size_t p = tile * kTilePixels; p < (tile + 1) * kTilePixels; ++p)
-        {
-            const SeenPlane& known = _planes[p];
-            if (known.compared == 0) continue;
-            const double sum = static_cast<double>(known.difference);
-            const double squares = static_cast<double>(known.squares);
-            const double share = static_cast<double>(known.undecided + known.compared) / passes;
-            compared.addPixel(known.compared, sum, squares, share);
-            if (known.lookup != PixelLookup::Footprint)
-                discs.addPixel(known.compared, sum, squares, later);
-        }
+        if (_lookups[tile]) _lookups[tile]->addBiases(passes, later, compared, discs);
         biases.compared[tile] = compared;
         biases.later[tile] = discs;
     };
@@ -356,7 +345,7 @@ std::size_t PhotonState::viewBytes() const
 {
     std::size_t bytes =
         _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
-        _planes.size() * sizeof(SeenPlane) + _differences.size() * sizeof(DiscDifferences);
+        _lookups.size() * sizeof(TileLookups) + _differences.size() * sizeof(DiscDifferences);
     bytes += _before.bytes();
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
@@ -376,7 +365,16 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.pointStride = static_cast<uint32_t>(
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     gathered.separate = _local;
-    if (!_planes.empty()) gathered.planes = &_planes[first];
+    if (!_lookups.empty())
+    {
+        std::unique_ptr<TileLookups>& lookups = _lookups[static_cast<std::size_t>(tile)];
+        if (!lookups) lookups = std::make_unique<TileLookups>();
+        const bool isReplaced = _opened && _before.areComplete(static_cast<std::size_t>(tile));
+        if (isReplaced && pass == FirstPasses::kCount) lookups->restart();
+        gathered.planes = lookups->planes;
+        gathered.wantsFirstHits = TileLookups::repays(pass);
+        gathered.balances = lookups->balances(pass);
+    }
     gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);
     for (std::size_t p = 0; p < kTilePixels; ++p)
@@ -393,14 +391,15 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
 {
     const std::size_t first = static_cast<std::size_t>(tile) * kTilePixels;
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
+    const int counted = _opened ? _before.replace(static_cast<std::size_t>(tile), pass, rgba) : 1;
+    if (!_lookups.empty())
+        _lookups[static_cast<std::size_t>(tile)]->finish(pass, counted, gathered, rgba);
     if (!_carried.empty())
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;
     if (gathered.seenStride) _seen[static_cast<std::size_t>(tile)] = squaresOf(gathered.seen, rgba);
     if (!_before.empty() && pass < FirstPasses::kCount)
         _before.add(static_cast<std::size_t>(tile), pass, rgba);
-    if (!_before.empty() && _opened && pass < 2 * FirstPasses::kCount)
-        _before.replace(static_cast<std::size_t>(tile), pass, rgba);
     // The limit is by tile, so that the order of threads does not decide which hit points are kept.
     if (HitPoints* hits = hitPoints(tile, pass);
         hits && hits->bytes() > kMostHitPointBytes / _hitPoints.size())

@@ -9,6 +9,7 @@
 #include "osgRayTrace/photons/RadiusSchedule.h"
 #include "osgRayTrace/session/FirstPasses.h"
 #include "osgRayTrace/session/RenderProgress.h"
+#include "osgRayTrace/session/TileLookups.h"
 
 #include <memory>
 #include <vector>
@@ -88,9 +89,6 @@ public:
     /// share camera paths, as those of Ppm do; otherwise null. A tile drops its hit points if they
     /// take more than its share of kMostHitPointBytes: its camera paths are then followed again.
     HitPoints* hitPoints(int tile, int pass);
-    /// Passes in which pixels may choose between discs and footprints: later ones cannot depend on
-    /// how many passes another machine has made.
-    static constexpr int kChoosingPasses = 16;
     static constexpr std::size_t kMostHitPointBytes = std::size_t(1) << 29;
 
     /// begin sets the radii for the tile before its pass; end takes the photons that the pass
@@ -117,7 +115,7 @@ private:
     void endIfUnneeded();
     bool choosesAgain(int pass) const
     {
-        const bool opens = _opened && !_planes.empty(); // else the pass is not shared
+        const bool opens = _opened && !_lookups.empty(); // else the pass is not shared
         return !_local && pass == PhotonPasses::kFirst && (_guides || opens);
     }
 
@@ -151,7 +149,8 @@ private:
     std::size_t _pixels = 0;                  ///< number of pixels of all tiles
     std::vector<float> _firstRadii;           ///< by tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< by half, tile, pixel; empty unless local
-    std::vector<SeenPlane> _planes;           ///< by tile, pixel; empty: all look-ups are discs
+    /// By tile; null until the tile has a pass. Empty: all look-ups are discs.
+    std::vector<std::unique_ptr<TileLookups>> _lookups;
     PixelProjection _projection;
     std::vector<HitPoints> _hitPoints;         ///< by half, tile; empty unless passes share paths
     std::vector<DiscDifferences> _differences; ///< by tile

@@ -116,7 +116,7 @@ struct RenderProgress
     uint64_t storedBeams = 0;                 ///< beams of the last pass, in media
     uint64_t storedPoints = 0;                ///< photons of the last pass at points within media
     float beamRadius = 0.0f;                  ///< of the last pass [length]; 0 without beams
-    uint64_t photonBytes = 0;                 ///< memory of the maps, which all views share
+    uint64_t photonBytes = 0;                 ///< memory of photons, which all views share
     /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.
     uint64_t hitPointBytes = 0;
 };

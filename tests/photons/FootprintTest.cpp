@@ -22,6 +22,22 @@ RenderOptions causticOptions(uint32_t seed)
     return options;
 }
 
+/// Returns the radiance of the pixels as means over smaller ones, in which the formula's mean over
+/// a disc stands for less.
+std::vector<double> fineTruth(const KnownPatch& patch)
+{
+    constexpr int kFiner = 6;
+    const std::vector<double> fine = truth(patch, kPixels * kFiner);
+    std::vector<double> result(kPixels * kPixels, 0.0);
+    for (int k = 0; k < int(fine.size()); ++k)
+    {
+        const int row = k / (kPixels * kFiner) / kFiner, column = k % (kPixels * kFiner) / kFiner;
+        result[std::size_t(row * kPixels + column)] +=
+            fine[std::size_t(k)] / double(kFiner * kFiner);
+    }
+    return result;
+}
+
 /// Returns the mean squares of the relative errors of a patch after each number of passes.
 std::vector<double> squaredErrors(const KnownPatch& patch, const RenderOptions& base,
                                   const std::vector<int>& passes, uint32_t seeds)
@@ -68,6 +84,73 @@ TEST_CASE("footprints: the error on a sharp caustic falls as one over the passes
     CAPTURE(slope, discSlope, squares.front(), squares.back());
     CHECK(slope < -0.95); // steeper at first: the share of the first passes, by discs, falls, too
     CHECK(discSlope > -0.8);
+}
+
+// The bias of pixels, whose blur has both signs, is mostly that of passes from before a pixel has
+// changed over; that of the mean is light that discs beside the caustic show twice. If neither is
+// corrected, the squared bias is 0.0017 and the mean off by 1.2 %. Both are measured to 5e-5 and
+// 0.04 %; the truth is off by 0.1 % itself.
+TEST_CASE("footprints: nothing is left of discs that were wrong", "[photons][statistics]")
+{
+    const KnownPatch patch = causticPatch();
+    const auto traced = patch.builder.build();
+    const std::vector<double> expected = fineTruth(patch);
+    std::vector<Estimate> pixels(expected.size());
+    Estimate mean;
+    for (uint32_t seed = 0; seed < 12; ++seed)
+    {
+        const Picture picture = render(traced, viewOf(patch, kPixels), causticOptions(seed), 64, 2);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < expected.size(); ++k)
+        {
+            const double error = double(picture.rgba[4 * k + 1]) / expected[k] - 1.0;
+            pixels[k].add(error);
+            sum += error / double(expected.size());
+        }
+        mean.add(sum);
+    }
+    double square = 0.0, noise = 0.0;
+    for (const Estimate& pixel : pixels)
+    {
+        square += std::pow(pixel.mean(), 2) / double(pixels.size());
+        noise += std::pow(pixel.standardError(), 2) / double(pixels.size());
+    }
+    const double bias = square - noise;
+    CAPTURE(bias, noise, mean.mean(), mean.standardError());
+    CHECK(bias < 6e-4);
+    CHECK(std::abs(mean.mean()) < 0.004);
+}
+
+TEST_CASE("footprints: passes of several sessions are those of one", "[photons]")
+{
+    const KnownPatch patch = causticPatch();
+    const auto traced = patch.builder.build();
+    for (const IntegratorKind kind : {IntegratorKind::PhotonCaustics, IntegratorKind::Sppm})
+    {
+        RenderOptions options = causticOptions(4);
+        options.integrator = kind;
+        const auto made = [&](int first, int end)
+        {
+            RenderSession session(std::make_shared<Workers>(2));
+            session.setScene(traced);
+            session.setView(viewOf(patch, kPixels));
+            session.setOptions(options);
+            session.setSums(FilmSums::Exact);
+            session.setFirstPass(first);
+            StopRule rule;
+            rule.passes = end;
+            session.render(rule);
+            std::optional<PassSums> sums = session.passSums();
+            REQUIRE(sums);
+            return *sums;
+        };
+        const PassSums whole = made(0, 52);
+        PassSums parts = made(21, 52);
+        addSums(made(0, 13), parts);
+        addSums(made(13, 21), parts);
+        CHECK(parts.low == whole.low);
+        CHECK(parts.high == whole.high);
+    }
 }
 
 TEST_CASE("footprints: equal bits for any number of threads", "[photons]")

@@ -88,7 +88,9 @@ TEST_CASE("photon blocks: the next list has the memory of the last one", "[photo
         first = addressesOf(list);
         PhotonBlocks moved = std::move(list);
         CHECK(addressesOf(moved) == first);
+        CHECK(memory.bytes() == 0);
     }
+    CHECK(memory.bytes() == first.size() * kSpanPhotons * sizeof(Photon));
     // Whatever has been freed goes to others first.
     std::vector<PhotonMemory::Block> others;
     for (std::size_t k = 0; k < 4 * first.size(); ++k)

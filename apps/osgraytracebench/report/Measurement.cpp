@@ -75,14 +75,15 @@ BudgetPlan timedPlan(double longest)
     return plan;
 }
 
-BudgetPlan quickPlan(const Method& method)
+BudgetPlan quickPlan(const Method& method, int seeds)
 {
     BudgetPlan plan;
     plan.timed = false;
+    if (seeds <= 0) seeds = hasKernel(method) ? kQuickKernelSeeds : kQuickSeeds;
     for (double passes = 2.0; passes <= 64.0; passes *= 2.0)
     {
         plan.budgets.push_back(passes);
-        plan.seeds.push_back(hasKernel(method) ? kQuickKernelSeeds : kQuickSeeds);
+        plan.seeds.push_back(seeds);
     }
     return plan;
 }

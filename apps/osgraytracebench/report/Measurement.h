@@ -20,8 +20,9 @@ struct BudgetPlan
 /// 4 s, 2 beyond.
 BudgetPlan timedPlan(double longest);
 
-/// Returns budgets of 2 to 64 passes with 16 seeds, or 8 seeds for methods that look up photons.
-BudgetPlan quickPlan(const Method& method);
+/// Returns budgets of 2 to 64 passes with so many seeds; 0: 16 seeds, or 8 for methods that look up
+/// photons.
+BudgetPlan quickPlan(const Method& method, int seeds);
 
 /// Holds a line, with one picture for people: that of the first seed, at a budget in the middle.
 struct MeasuredLine

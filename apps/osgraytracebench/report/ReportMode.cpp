@@ -101,7 +101,7 @@ Reference referenceOf(Run& run, const ReportScene& scene)
 
 BudgetPlan planFor(const Run& run, const Method& method, std::size_t placement)
 {
-    if (run.options.quick) return quickPlan(method);
+    if (run.options.quick) return quickPlan(method, run.options.seeds);
     return timedPlan(placement == 0 ? run.options.longest
                                     : std::min(run.options.longest, kLongestDisplaced));
 }

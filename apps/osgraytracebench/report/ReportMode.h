@@ -12,9 +12,10 @@ struct ReportOptions
 {
     std::string folder = "report";
     bool quick = false;
-    double longest = 8.0;            ///< longest budget [s]
-    int width = 0;                   ///< width of the pictures [pixels]; 0: 32 if quick, else 128
-    std::string only;                ///< part of the names of scenes that are measured; empty: all
+    double longest = 8.0; ///< longest budget [s]
+    int width = 0;        ///< width of the pictures [pixels]; 0: 32 if quick, else 128
+    int seeds = 0;        ///< pictures of each method of a quick report; 0: 8 or 16, see quickPlan
+    std::string only;     ///< part of the names of scenes that are measured; empty: all
     std::vector<std::string> models; ///< models measured in place of the report's own scenes
     std::string expectations;        ///< file; empty: expectations built into this program
 };

@@ -195,7 +195,8 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = gathered.planes[pixel];
-        const bool compares = known.lookup == PixelLookup::Compared && gathered.choosesPlanes;
+        const bool compares = known.lookup == PixelLookup::Compared &&
+                              (gathered.choosesPlanes || gathered.balances);
         if (known.lookup != PixelLookup::Footprint && !compares) continue;
         pixels[i] = cornerOf(tile, pixel);
         const Footprint footprint =

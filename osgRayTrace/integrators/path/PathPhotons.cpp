@@ -49,6 +49,12 @@ void recordPoints(const PathBlock& block, const PhotonQueryLanes& queries,
             gathered.points.push_back({laneOf(queries.position, i), laneOf(queries.normal, i)});
 }
 
+/// Records light of first hits that a footprint may take the place of.
+void recordFirstHit(GatheredPhotons& gathered, uint32_t pixel, Vec3 radiance)
+{
+    if (gathered.wantsFirstHits && isFinite(radiance)) gathered.atFirstHits[pixel] += radiance;
+}
+
 /// Returns the discs of the lanes that gather, but for those that take the photons of footprints,
 /// and chooses the first radius of each pixel that has none yet.
 PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -176,6 +182,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     for (const int i : lanesIn(footprints.chosen))
     {
         tile.sums.add(block.flagsOf(i), laneOf(footprints.radiance, i));
+        recordFirstHit(gathered, block.flagsOf(i).pixel(), laneOf(footprints.radiance, i));
         gathered.carried += luminance(laneOf(footprints.radiance, i));
     }
     if (!queries.lanes) return;
@@ -184,6 +191,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     if (gathered.comparedBlock >= 0) compareDiscs(tile, queries, block, bounce, sums);
     correctEdges(tile, block, bounce, queries, sums);
     Vec3Lanes radiance = {};
+    const LaneMask firstHits = bounce.number > 0 || bounce.below ? 0 : ~bounce.collided;
     for (const int i : lanesIn(queries.lanes))
     {
         if (sums.count[i] == 0) continue;
@@ -202,9 +210,18 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
             gathered.flux[pixel] += flux;
         }
         else
+        {
             tile.sums.add(block.flagsOf(i), flux / discArea);
+            if ((firstHits >> i) & 1u) recordFirstHit(gathered, pixel, flux / discArea);
+        }
     }
     chooseFootprints(tile, block, bounce, queries, radiance, footprints);
+    if (!gathered.balances) return;
+    for (const int i : lanesIn(footprints.compared))
+    {
+        const Vec3 difference = laneOf(radiance, i) - laneOf(footprints.radiance, i);
+        if (isFinite(difference)) gathered.leaked += difference;
+    }
 }
 
 } // namespace osgRayTrace::engine

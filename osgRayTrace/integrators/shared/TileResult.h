@@ -89,6 +89,17 @@ struct GatheredPhotons
     uint32_t count[kTilePixels] = {};
     Vec3 flux[kTilePixels] = {}; ///< flux times the path's throughput [W/sr]
 
+    /// The radiance that photons have added at the pixels' first hits, whatever they looked up. It
+    /// is recorded if wantsFirstHits is set.
+    bool wantsFirstHits = false;
+    Vec3 atFirstHits[kTilePixels] = {};
+
+    /// If balances is set, pixels that compare their disc with their footprint do so in this pass,
+    /// too, and leaked is the radiance by their discs less that by their footprints, summed over
+    /// them.
+    bool balances = false;
+    Vec3 leaked{0.0f};
+
     /// The luminance that photons have added to the pixels of the tile, summed up.
     float carried = 0.0f;
 

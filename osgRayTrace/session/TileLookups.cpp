@@ -1,0 +1,183 @@
+// TileLookups.cpp - takes light of discs that were wrong out of the image again. Layer: session.
+// SPDX-License-Identifier: MIT
+//
+// A pixel that changes over to its footprint at pass c has c_h passes of each half h of the film by
+// discs, whose light is D_h. Each of the next kRepayingPasses c_h = n passes of that half, whose
+// footprints have the light F, adds
+//
+//   F + (c_h F - D_h) / n
+//
+// in place of F. The weights of all passes add up to their number at any time, and after these
+// passes nothing of D_h is left. The halves stay independent of each other. A pass that takes the
+// place of another one counts twice in c_h and D_h, and that other one does not count.
+//
+// If all pixels took discs, these would spread light among pixels, but lose none of it. Once the
+// pixels on a sharp caustic have changed over, they show all of their light, and discs beside them
+// show a part of it again. So the discs of a tile's pixels may have no more light together than the
+// photons in these pixels' footprints: in each pass the rest,
+//
+//   leaked = sum over pixels with discs of (D - F),
+//
+// is taken from these pixels, from each as much as its share of their light by discs in the first
+// passes. These shares do not depend on the pass, so the tile's light has no bias. The sum has
+// little noise, as most photons are in it on both sides.
+#include "osgRayTrace/session/TileLookups.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgRayTrace::engine
+{
+
+namespace
+{
+
+/// What is left of a disc's light in the end is 0 but for rounding, and never less.
+constexpr float kRoundedDown = 1.0f - 0x1p-19f;
+
+/// A pixel that has not found its disc wrong takes its footprint all the same if so many of its
+/// eight neighbours do: its disc reaches into them.
+constexpr int kChangedNeighbours = 3;
+
+/// Discs leak if one of so many of the tile's pixels has changed over.
+constexpr int kLeakingShare = 16;
+
+/// What leaks in the mean of the first kChoosingPasses over what leaks in the passes that make up
+/// for them. Blur of smooth light goes with the square of the radius, that of pass i with
+/// (i + 1)^(-1/3) for the usual photon-alpha of 2/3 [Knaus11].
+constexpr float kEarlierLeak = 1.85f;
+
+/// Returns how many of the first passes belong to a half.
+int passesOfHalf(int passes, int half)
+{
+    return (passes + 1 - half) / 2;
+}
+
+void addLight(std::size_t pixel, Vec3 light, RgbaLanes* rgba)
+{
+    RgbaLanes& block = rgba[pixel / kLanes];
+    block.r[pixel % kLanes] += light.x;
+    block.g[pixel % kLanes] += light.y;
+    block.b[pixel % kLanes] += light.z;
+}
+
+} // namespace
+
+void TileLookups::restart()
+{
+    if (_hasRestarted) return;
+    *this = TileLookups();
+    _hasRestarted = true;
+}
+
+void TileLookups::finish(int pass, int counted, const GatheredPhotons& gathered, RgbaLanes* rgba)
+{
+    if (pass < kChoosingPasses) _counted[pass] = static_cast<uint8_t>(counted);
+    if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
+    if (pass + 1 == kChoosingPasses) endChoosing();
+    if (gathered.balances) takeLeaked(pass, gathered.leaked, rgba);
+}
+
+void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba)
+{
+    const int half = pass & 1;
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const bool takesFootprint = planes[p].lookup == PixelLookup::Footprint;
+        if (_changes[p] == 0 && pass < kChoosingPasses)
+        {
+            _discs[half][p] += gathered.atFirstHits[p] * static_cast<float>(_counted[pass]);
+            if (takesFootprint) _changes[p] = static_cast<uint8_t>(pass + 1);
+            continue;
+        }
+        if (!takesFootprint) continue;
+        const int wrong = countedOf(p, half);
+        if (pass / 2 >= passesOfHalf(_changes[p], half) + wrong * kRepayingPasses) continue;
+        const Vec3 disc = _discs[half][p] * (kRoundedDown / static_cast<float>(wrong));
+        addLight(p, (gathered.atFirstHits[p] - disc) * (1.0f / kRepayingPasses), rgba);
+    }
+}
+
+/// Changes pixels over among others that have changed, and tells whether the rest leaks.
+void TileLookups::endChoosing()
+{
+    int changed[kTileSize + 2][kTileSize + 2] = {}; // with a margin
+    const auto placeOf = [&](std::size_t p)
+    {
+        const int block = static_cast<int>(p) / kLanes, lane = static_cast<int>(p) % kLanes;
+        return &changed[laneY(block, lane) + 1][laneX(block, lane) + 1];
+    };
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+        *placeOf(p) = planes[p].lookup == PixelLookup::Footprint;
+    int count = 0;
+    float light = 0.0f;
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const int* const place = placeOf(p);
+        int neighbours = 0;
+        for (const int* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
+            neighbours += row[-1] + row[0] + row[1];
+        if (planes[p].lookup == PixelLookup::Compared && neighbours >= kChangedNeighbours)
+        {
+            planes[p].lookup = PixelLookup::Footprint;
+            _changes[p] = kChoosingPasses;
+        }
+        count += planes[p].lookup == PixelLookup::Footprint;
+        if (planes[p].lookup == PixelLookup::Compared)
+            light += luminance(_discs[0][p] + _discs[1][p]);
+    }
+    if (count * kLeakingShare >= kTilePixels && std::isfinite(light)) _discLight = light;
+}
+
+void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
+{
+    const float passes = repays(pass) ? 1.0f + kEarlierLeak / kRepayingPasses : 1.0f;
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        if (planes[p].lookup != PixelLookup::Compared) continue;
+        const float share = luminance(_discs[0][p] + _discs[1][p]) / _discLight;
+        addLight(p, leaked * (-passes * share), rgba);
+    }
+}
+
+// Whether a pixel has changed over hangs on its differences, so those of all pixels count: only
+// their sum has no bias.
+void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compared,
+                            FootprintBias& discs) const
+{
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const SeenPlane& known = planes[p];
+        if (known.compared == 0) continue;
+        const bool changed = known.lookup == PixelLookup::Footprint;
+        const double sum = static_cast<double>(known.difference);
+        const double squares = static_cast<double>(known.squares);
+        const double chose = static_cast<double>(known.undecided + known.compared) / passes;
+        compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
+        if (!changed) discs.addPixel(known.compared, sum, squares, laterShare);
+    }
+}
+
+/// Returns how often the passes of a half count in which the pixel looked up discs before it
+/// changed over.
+int TileLookups::countedOf(std::size_t pixel, int half) const
+{
+    int counted = 0;
+    for (int pass = half; pass < _changes[pixel]; pass += 2)
+        counted += _counted[pass];
+    return counted;
+}
+
+double TileLookups::discShare(std::size_t pixel, int passes) const
+{
+    double left = 0.0;
+    for (int half = 0; half < 2; ++half)
+    {
+        const int wrong = countedOf(pixel, half);
+        const int repaid = passesOfHalf(passes, half) - passesOfHalf(_changes[pixel], half);
+        left += std::max(0.0, wrong - static_cast<double>(repaid) / kRepayingPasses);
+    }
+    return std::min(1.0, left / passes);
+}
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,76 @@
+// TileLookups.h - how the pixels of a tile have looked up photons so far. Layer: session.
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "osgRayTrace/film/KernelBias.h"
+#include "osgRayTrace/integrators/shared/TileResult.h"
+
+#include <cstdint>
+
+namespace osgRayTrace::engine
+{
+
+/// Passes in which pixels may choose between discs and footprints: later ones cannot depend on how
+/// many passes another machine has made.
+constexpr int kChoosingPasses = 16;
+
+/// The passes that make up for one by a disc that was wrong. Fewer make the image right sooner,
+/// more have less noise.
+constexpr int kRepayingPasses = 2;
+
+/// What the pixels of a tile see, and the light of the discs that they have looked up. A pixel that
+/// takes the photons of its footprint from some pass on has found its discs wrong, so their light
+/// is taken out of the image again, and later passes count more in its place. Pixels that keep
+/// their discs keep the light of their own photons, too: discs beside a sharp caustic have light of
+/// pixels that have all of that light themselves. All corrections of a pass depend on the first
+/// kChoosingPasses and on that pass alone, so passes may be made in any order and by several
+/// machines. One thread at a time.
+struct TileLookups
+{
+    SeenPlane planes[kTilePixels];
+
+    /// Whether some pass from pass number `pass` on may still make up for discs that were wrong.
+    static bool repays(int pass) { return pass < kChoosingPasses * (1 + kRepayingPasses); }
+
+    /// Whether pixels with discs are to find their own photons in a pass:
+    /// GatheredPhotons::balances.
+    bool balances(int pass) const { return pass >= kChoosingPasses && _discLight > 0.0f; }
+
+    /// Forgets all passes so far, which leave the image: see FirstPasses. Does so only once.
+    void restart();
+
+    /// Takes what a pass has looked up in the tile, and corrects its light. Passes below
+    /// kChoosingPasses come in their order, before all others. counted: how often the light of the
+    /// pass counts; rgba holds it so many times.
+    void finish(int pass, int counted, const GatheredPhotons& gathered, RgbaLanes* rgba);
+
+    /// Adds what the pixels know of the bias of their discs in the mean of so many passes from the
+    /// first one on: to compared the bias of the passes that may choose, to discs that of the later
+    /// passes of pixels that still take discs, as the share laterShare of passes like the first.
+    void addBiases(int passes, double laterShare, FootprintBias& compared,
+                   FootprintBias& discs) const;
+
+    /// Returns the share of a pixel's light that is that of discs from before it changed over, in
+    /// the mean of so many passes from the first one on. The pixel has changed over.
+    double discShare(std::size_t pixel, int passes) const;
+
+private:
+    int countedOf(std::size_t pixel, int half) const;
+    void forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba);
+    void endChoosing();
+    void takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const;
+
+    /// The light that photons have added at first hits in the even and in the odd passes that
+    /// looked up discs and might choose [radiance, summed over the passes].
+    Vec3 _discs[2][kTilePixels] = {};
+    /// The number of the first pass that takes the photons of the footprint; 0: there is none yet.
+    uint8_t _changes[kTilePixels] = {};
+    /// By pass that may choose: how often it counts; 0 before it is made, and for passes that leave
+    /// the image.
+    uint8_t _counted[kChoosingPasses] = {};
+    bool _hasRestarted = false;
+    /// Luminance of _discs, summed over the pixels that still compare; 0 unless their discs leak.
+    float _discLight = 0.0f;
+};
+
+} // namespace osgRayTrace::engine

@@ -1,0 +1,152 @@
+// TileLookupsTest.cpp - the light of discs that were wrong leaves the image again.
+// SPDX-License-Identifier: MIT
+#include "tests/Catch.h"
+
+#include "osgRayTrace/session/FirstPasses.h"
+#include "osgRayTrace/session/TileLookups.h"
+
+#include <algorithm>
+#include <memory>
+
+using namespace osgRayTrace::engine;
+
+namespace
+{
+
+constexpr float kDisc = 3.0f, kFootprint = 1.0f; ///< light of the look-ups
+constexpr std::size_t kPixel = 37;
+
+std::unique_ptr<GatheredPhotons> gatheredIn(int pass)
+{
+    auto gathered = std::make_unique<GatheredPhotons>();
+    gathered->wantsFirstHits = TileLookups::repays(pass);
+    return gathered;
+}
+
+/// Sums up passes of a pixel that changes over at some pass, half by half.
+struct Pixel
+{
+    explicit Pixel(int passOfChange, float disc = kDisc) : change(passOfChange), discLight(disc) {}
+
+    void add(int pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        const float light = pass < change ? discLight : kFootprint;
+        gathered->atFirstHits[kPixel] = Vec3(light);
+        if (pass + 1 >= change) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+        TileRgba rgba = {};
+        rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+        lookups->finish(pass, 1, *gathered, rgba);
+        sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+    }
+
+    int change;
+    float discLight;
+    std::unique_ptr<TileLookups> lookups = std::make_unique<TileLookups>();
+    double sums[2] = {};
+};
+
+} // namespace
+
+TEST_CASE("tile lookups: nothing is left of discs that were wrong, in either half", "[session]")
+{
+    for (int change = 1; change <= kChoosingPasses; ++change)
+    {
+        Pixel wrong(change), right(change, kFootprint);
+        for (int pass = 0; pass < 64; ++pass)
+        {
+            wrong.add(pass);
+            right.add(pass);
+            const int passes = pass + 1;
+            CAPTURE(change, passes);
+            // The weights of passes are their number all the time.
+            CHECK(right.sums[0] + right.sums[1] == Approx(passes * kFootprint).epsilon(1e-5));
+            if (passes < change) continue;
+            const double share = wrong.lookups->discShare(kPixel, passes);
+            const double mean = (wrong.sums[0] + wrong.sums[1]) / passes;
+            CHECK(mean == Approx(share * kDisc + (1.0 - share) * kFootprint).epsilon(1e-5));
+            CHECK(share <= std::min(1.0, double(change) / passes));
+            if (TileLookups::repays(passes)) continue;
+            CHECK(share == 0.0);
+            for (int half = 0; half < 2; ++half)
+                CHECK(wrong.sums[half] ==
+                      Approx((passes + 1 - half) / 2 * kFootprint).epsilon(1e-5));
+        }
+    }
+}
+
+TEST_CASE("tile lookups: nothing is left of passes that others replace, nor of wrong discs beside",
+          "[session]")
+{
+    for (const int before : {2, 1000}) // a pixel that had changed over, and one that had not
+        for (int change = FirstPasses::kCount + 1; change <= kChoosingPasses; ++change)
+        {
+            FirstPasses first;
+            first.reset(1);
+            auto lookups = std::make_unique<TileLookups>();
+            double sums[2] = {};
+            for (int pass = 0; pass < 64; ++pass)
+            {
+                const bool isFirst = pass < FirstPasses::kCount;
+                if (pass == FirstPasses::kCount) lookups->restart();
+                const int changes = isFirst ? before : change;
+                const auto gathered = gatheredIn(pass);
+                // Light of discs differs from pass to pass, that of the first passes the most.
+                const float disc = isFirst ? 100.0f * float(1 + pass % 3) : kDisc + float(pass % 3);
+                const float light = pass < changes ? disc : kFootprint;
+                gathered->atFirstHits[kPixel] = Vec3(light);
+                if (pass + 1 >= changes) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+                TileRgba rgba = {};
+                rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+                const int counted = first.replace(0, pass, rgba);
+                lookups->finish(pass, counted, *gathered, rgba);
+                if (isFirst) first.add(0, pass, rgba);
+                sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+            }
+            CAPTURE(before, change);
+            for (const double sum : sums)
+                CHECK(sum == Approx(32.0 * kFootprint).epsilon(1e-4));
+            CHECK(lookups->discShare(kPixel, 64) == 0.0);
+        }
+}
+
+TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", "[session]")
+{
+    for (const float disc : {1e-6f, 0.3f, 1e6f})
+    {
+        Pixel pixel(11, disc);
+        double sums[2] = {};
+        for (int pass = 0; pass < 64; ++pass)
+        {
+            const auto gathered = gatheredIn(pass);
+            const float light = pass < pixel.change ? disc * float(1 + pass % 3) : 0.0f;
+            gathered->atFirstHits[kPixel] = Vec3(light);
+            if (pass + 1 >= pixel.change)
+                pixel.lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+            TileRgba rgba = {};
+            rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+            pixel.lookups->finish(pass, 1, *gathered, rgba);
+            sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+            CHECK(sums[pass & 1] >= 0.0);
+        }
+        CHECK(sums[0] + sums[1] < 1e-4 * double(disc));
+    }
+}
+
+TEST_CASE("tile lookups: a pixel that sees another plane in the end keeps what it has", "[session]")
+{
+    Pixel pixel(6, kFootprint);
+    for (int pass = 0; pass < 9; ++pass)
+        pixel.add(pass);
+    pixel.change = 1000; // discs from now on
+    pixel.lookups->planes[kPixel].lookup = PixelLookup::Disc;
+    for (int pass = 9; pass < 64; ++pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        gathered->atFirstHits[kPixel] = Vec3(kFootprint);
+        TileRgba rgba = {};
+        rgba[kPixel / kLanes].g[kPixel % kLanes] = kFootprint;
+        pixel.lookups->finish(pass, 1, *gathered, rgba);
+        CHECK(rgba[kPixel / kLanes].g[kPixel % kLanes] == kFootprint);
+    }
+}
