@@ -5,6 +5,7 @@
 #include "tests/SlitRooms.h"
 #include "tests/Statistics.h"
 
+#include "osgRayTrace/film/PassSums.h"
 #include "osgRayTrace/photons/OpeningFinder.h"
 #include "osgRayTrace/photons/PhotonPasses.h"
 
@@ -36,6 +37,24 @@ std::vector<float> picture(const std::shared_ptr<const TracedScene>& traced, con
     rule.passes = passes;
     REQUIRE(session.render(rule).droppedSamples == 0);
     return session.resolveRadiance();
+}
+
+/// Returns the sums of some passes of the dark room, made by a session of their own.
+PassSums sumsOf(const std::shared_ptr<const TracedScene>& traced, bool guided, int first, int end,
+                int threads)
+{
+    RenderSession session(std::make_shared<Workers>(threads), std::make_shared<PhotonPasses>());
+    session.setScene(traced);
+    session.setOptions(sppm(guided));
+    session.setView(viewOf(true, 32));
+    session.setSums(FilmSums::Exact);
+    session.setFirstPass(first);
+    StopRule rule;
+    rule.passes = end;
+    REQUIRE(session.render(rule).status.ok());
+    const std::optional<PassSums> sums = session.passSums();
+    REQUIRE(sums);
+    return *sums;
 }
 
 /// Holds openings of several sizes and weights, which overlap, and a point that sees them all.
@@ -296,6 +315,21 @@ TEST_CASE("photon openings: none where the view shows the lit room, or the openi
         const View view = viewOf(wide, 32);
         CHECK(picture(traced, view, sppm(true), 2) == picture(traced, view, sppm(false), 2));
     }
+}
+
+TEST_CASE(
+    "photon openings: passes that replace the first ones are the same in sessions of their own",
+    "[photons]")
+{
+    const auto traced = rooms().build(2);
+    const PassSums whole = sumsOf(traced, true, 0, 9, 1);
+    PassSums parts = sumsOf(traced, true, 6, 9, 2);
+    addSums(sumsOf(traced, true, 0, 3, 2), parts);
+    addSums(sumsOf(traced, true, 3, 6, 1), parts);
+    CHECK(parts.passes == whole.passes);
+    CHECK(parts.low == whole.low);
+    CHECK(parts.high == whole.high);
+    CHECK(sumsOf(traced, false, 0, 9, 2).low != whole.low);
 }
 
 TEST_CASE("photon openings: equal for any number of threads, and the mean that of passes without",
