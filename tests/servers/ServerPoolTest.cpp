@@ -1,6 +1,7 @@
 // ServerPoolTest.cpp - pictures with the help of servers are those without, whatever befalls them.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/Environments.h"
 #include "tests/SlitRooms.h"
 #include "tests/servers/ThreadServer.h"
 
@@ -307,6 +308,32 @@ TEST_CASE("servers: equal images with photons that are sent through openings", "
     options.photonGuiding = false;
     REQUIRE(imageOf(scene, options, nullptr, 6, view).radiance != alone.radiance); // there are some
     options.photonGuiding = true;
+    checkServed(scene, options, 6, view);
+}
+
+TEST_CASE("servers: equal images of a room that sees the sky through an opening", "[servers]")
+{
+    SceneBuilder builder;
+    const Material white = lambert(Vec3(0.7f));
+    builder.add(quadMesh({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), white);
+    builder.add(quadMesh({0, 0, 0}, {0, 0, 3}, {4, 0, 0}), white);
+    builder.add(quadMesh({0, 4, 0}, {4, 0, 0}, {0, 0, 3}), white);
+    builder.add(quadMesh({0, 0, 0}, {0, 4, 0}, {0, 0, 3}), white);
+    builder.add(quadMesh({4, 0, 0}, {0, 0, 3}, {0, 4, 0}), white);
+    builder.add(quadMesh({0, 0, 3}, {0, 4, 0}, {3, 0, 0}), white);
+    builder.add(quadMesh({3, 1, 3}, {0, 3, 0}, {1, 0, 0}), white);
+    Light sky;
+    sky.kind = LightKind::Environment;
+    sky.radiance = Vec3(1.0f);
+    sky.environment.image = sunnySky(64, 32);
+    builder.addLight(sky);
+    const auto scene = builder.build(1);
+    const View view = perspectiveView({1, 0.5, 1.6}, {2, 3, 1}, {0, 0, 1}, 60.0, 48, 40);
+    RenderOptions options = optionsOf(IntegratorKind::Path);
+    const Image alone = imageOf(scene, options, nullptr, 6, view);
+    options.moving = true; // where nothing is learnt
+    REQUIRE(imageOf(scene, options, nullptr, 6, view).radiance != alone.radiance);
+    options.moving = false;
     checkServed(scene, options, 6, view);
 }
 

@@ -13,12 +13,8 @@
 // 5. The flights through the rectangle are taken away, and the next opening is looked for.
 #include "osgRayTrace/integrators/shared/SkyPortalFinder.h"
 
-#include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/accel/Surface.h"
-#include "osgRayTrace/integrators/shared/CameraLanes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
-#include "osgRayTrace/integrators/shared/ShadowLanes.h"
-#include "osgRayTrace/sampling/Hash.h"
+#include "osgRayTrace/integrators/shared/SkyFlights.h"
 #include "osgRayTrace/sampling/Sobol.h"
 #include "osgRayTrace/sampling/Warp.h"
 
@@ -32,137 +28,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kBlocks = 64;         ///< blocks of sixteen surfaces that send rays
-constexpr int kFirstRounds = 2;     ///< rays of a point before it is known whether any is of use
-constexpr int kRounds = 16;         ///< rays of a point
-constexpr float kEasyToFind = 0.3f; ///< share of the rays that find the sky without help
+constexpr int kFirstRounds = 2; ///< rays of a point before it is known whether any is of use
+/// Share of the rays that find the sky without help. In a Cornell box that is open to a sky the
+/// share is higher, and paths need less time for the same error if they know no portals.
+constexpr float kEasyToFind = 0.05f;
 constexpr std::size_t kLeastFlights = 24;
 constexpr float kLeastHeld = 0.9f; ///< share of the flights that cross portals
 constexpr int kCells = 48;         ///< of the grid, along a side
 constexpr int kMostNormals = 8;
-constexpr uint32_t kSeed = 0x5c9b1e77u;
-
-/// A ray that has met the sky.
-struct Flight
-{
-    Vec3 from, direction;
-    int block; ///< of points
-};
-
-/// Sixteen points.
-struct SeenBlock
-{
-    SurfaceLanes surface;
-    Vec3Lanes normal;
-    LaneMask lanes = 0;
-};
-
-struct Seen
-{
-    std::vector<SeenBlock> blocks;
-    Vec3 low{kInfinity}, high{-kInfinity}; ///< bounds of the points and the eye
-};
-
-/// Sets what the rays of a block met, and its bounds. Panes are no surfaces that light ends at.
-void setSeen(const PassContext& context, const RayHitBlock& rays, LaneMask active, Seen& seen,
-             SeenBlock& block)
-{
-    surfacesOf(context.traced->surfaces(), rays, active, block.surface);
-    facingNormalLanes(rays.ray, block.surface, block.normal);
-    const MaterialTable& materials = context.traced->materials();
-    for (const int i : lanesIn(block.surface.hits))
-    {
-        if (materials[block.surface.material[i]].pane) continue;
-        block.lanes |= 1u << i;
-        seen.low = glm::min(seen.low, laneOf(block.surface.position, i));
-        seen.high = glm::max(seen.high, laneOf(block.surface.position, i));
-    }
-}
-
-/// Returns a direction that a Lambert surface sends a ray to.
-Vec3 lambertDirection(const SeenBlock& block, int i, uint32_t number, std::size_t b)
-{
-    float u, v;
-    sobol2(number, hash(kSeed, static_cast<uint32_t>(b) * kLanes + static_cast<uint32_t>(i)), u, v);
-    const PlainVec3 local = squareToCosineHemispherePlain(u, v);
-    return ShadingFrame(laneOf(block.normal, i)).toWorld(Vec3(local.x, local.y, local.z));
-}
-
-/// Traces the middles of pixels in blocks that are spread over the image, and rays on from there:
-/// what lies around is seen in close-ups, too.
-Seen lookAround(const PassContext& context, TileCounts& counts)
-{
-    Seen seen;
-    const Intersector& intersector = context.traced->intersector();
-    const int across = tilesAlong(context.width), tiles = across * tilesAlong(context.height);
-    const int64_t all = int64_t(tiles) * kTileBlocks;
-    const auto count = static_cast<std::size_t>(std::min<int64_t>(all, kBlocks / 2));
-    seen.blocks.resize(2 * count);
-    seen.low = seen.high = context.eye;
-    for (std::size_t k = 0; k < count; ++k)
-    {
-        // One block of each stretch of the image, by chance.
-        const auto stretch = static_cast<int64_t>(k), stretches = static_cast<int64_t>(count);
-        const int64_t first = all * stretch / stretches, last = all * (stretch + 1) / stretches;
-        const int64_t at = first + hash(kSeed, static_cast<uint32_t>(k)) % (last - first);
-        const auto tile = static_cast<int>(at / kTileBlocks);
-        RayHitBlock rays;
-        centreRayLanes(context.camera, tile % across * kTileSize, tile / across * kTileSize,
-                       static_cast<int>(at % kTileBlocks), rays);
-        intersector.closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
-        counts.cameraRays += kLanes;
-        SeenBlock& block = seen.blocks[k];
-        setSeen(context, rays, kAllLanes, seen, block);
-        RayHitBlock further;
-        for (const int i : lanesIn(block.lanes))
-        {
-            const Vec3 wi = lambertDirection(block, i, kRounds, k);
-            setRay(further.ray, i, leave(block.surface, i, wi), wi, kInfinity);
-        }
-        intersector.closestHits(further, block.lanes, Coherence::Incoherent);
-        counts.secondaryRays += static_cast<uint64_t>(countLanes(block.lanes));
-        setSeen(context, further, block.lanes, seen, seen.blocks[count + k]);
-    }
-    return seen;
-}
-
-/// Traces the samples and adds those that meet the sky to the flights. Returns how many were sent.
-int addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
-               TileCounts& counts, std::vector<Flight>& flights)
-{
-    const int sent = countLanes(samples.lit);
-    samples.tinted = 0;
-    const LaneMask visible = visibleLanes(context, samples, counts);
-    for (const int i : lanesIn(visible))
-        flights.push_back({laneOf(seen.surface.position, i), laneOf(samples.wi, i), block});
-    return sent;
-}
-
-void setFlight(const SeenBlock& seen, int i, Vec3 wi, LightLanes& samples)
-{
-    if (!(glm::dot(wi, laneOf(seen.surface.geometricNormal, i)) > 0.0f)) return;
-    setSample(samples, i, wi, Vec3(1.0f), 1.0f);
-    setRay(samples.shadow, i, leave(seen.surface, i, wi), wi, kInfinity);
-    samples.lit |= 1u << i;
-}
-
-/// Sends rays of some rounds from all that is seen. Returns their number.
-int sendAround(const PassContext& context, const Seen& seen, int first, int last,
-               TileCounts& counts, std::vector<Flight>& flights)
-{
-    int sent = 0;
-    for (int round = first; round < last; ++round)
-        for (std::size_t b = 0; b < seen.blocks.size(); ++b)
-        {
-            const SeenBlock& block = seen.blocks[b];
-            LightLanes samples;
-            for (const int i : lanesIn(block.lanes))
-                setFlight(block, i, lambertDirection(block, i, static_cast<uint32_t>(round), b),
-                          samples);
-            sent += addFlights(context, block, static_cast<int>(b), samples, counts, flights);
-        }
-    return sent;
-}
 
 /// The votes of flights for cells.
 struct Votes
@@ -173,7 +46,7 @@ struct Votes
 
     Votes(const Seen& seen)
     {
-        static_assert(kBlocks <= 64, "a bit for each block");
+        static_assert(kFlightBlocks <= 64, "a bit for each block");
         const Vec3 size = seen.high - seen.low;
         const float largest = std::max(size.x, std::max(size.y, size.z));
         const float half = 0.75f * largest; // openings may lie beyond what is seen
@@ -393,7 +266,7 @@ int sendThrough(const PassContext& context, const Seen& seen, const Opening& ope
         for (const int i : lanesIn(block.lanes))
         {
             float u, v;
-            sobol2(static_cast<uint32_t>(b) * kLanes + static_cast<uint32_t>(i), kSeed, u, v);
+            sobol2(static_cast<uint32_t>(b) * kLanes + static_cast<uint32_t>(i), kFlightSeed, u, v);
             const Frame& frame = opening.frame;
             const Vec2 at =
                 opening.bounds.low + (opening.bounds.high - opening.bounds.low) * Vec2(u, v);
@@ -465,7 +338,7 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
     const auto isEasy = [&]
     { return static_cast<float>(flights.size()) > kEasyToFind * static_cast<float>(sent); };
     if (flights.empty() || isEasy()) return nullptr;
-    sent += sendAround(context, seen, kFirstRounds, kRounds, counts, flights);
+    sent += sendAround(context, seen, kFirstRounds, kFlightRounds, counts, flights);
     if (flights.size() < kLeastFlights || isEasy()) return nullptr;
 
     const std::vector<Vec3> normals = normalsOf(seen);
