@@ -41,6 +41,16 @@ static_assert(sizeof(LightNode) == 64, "a node is a cache line");
 
 LightNode nodeOf(const LightBounds& bounds, uint32_t next);
 
+OSGRAYTRACE_INLINE float least(float a, float b)
+{
+    return select(a < b, a, b);
+}
+
+OSGRAYTRACE_INLINE float largest(float a, float b)
+{
+    return select(a > b, a, b);
+}
+
 OSGRAYTRACE_INLINE float sineOf(float cosine)
 {
     const float square = 1.0f - cosine * cosine;

@@ -6,19 +6,21 @@
 // its normal [Conty18, sect. 4.1]. With D the vector from a surface point with normal n to the
 // centre of the box, the light that the point gets from them without occlusion is about
 //
-//   importance = I C_l C_s / (c + l d + q d^2),   d^2 = |D|^2 + r^2 / 6
-//   C_s d = (s + max(s, S)) / 2,   s = n . D,            S = |n| . h
-//   C_l d = (g + max(g, G)) / 2,   g = |D| cos(w - o),   G = |axis| . h + r sin o, at most r
+//   importance = I sqrt(C_l C_s B_l B_s) / (c + l d + q d^2),   d^2 = |D|^2 + r^2 / 3
+//   C_s m = (s + max(s, S)) / 2,   B_s m = min(m, s + S),   s = n . D,           S = |n| . h
+//   C_l m = (g + max(g, G)) / 2,   B_l m = min(m, g + G),   g = |D| cos(w - o),  G = |axis| . h
+//                                                                                    + r sin o
 //
-// where w is the angle between the axis and -D, w - o is 0 at least, and |n| has the magnitudes of
-// n's components. For a far box this is [Conty18, eq. 3] without the angle of the box. That
-// equation takes the least distance and the largest cosines that any of the lights might have. Near
-// a box these bounds are far above the light that comes, by factors that differ from box to box:
-// one sample of a thousand lamps under a ceiling then has 6 to 16 times the variance. So the terms
-// here are means. The cosine s is taken to be evenly spread over [s - S, s + S], and (s + S) / 2
-// stands for the mean of what is above 0 in it. The square of the distance is that of the centre,
-// and half of the variance r^2 / 3 of lights that fill the box, as the nearer lights count for
-// more.
+// where w is the angle between the axis and -D, w - o is 0 at least, |n| has the magnitudes of n's
+// components, G is r at most, and m is about the distance of the box. C and B stand for cosines,
+// and for a far box all of it is [Conty18, eq. 3] without the angle of the box. That equation takes
+// the largest cosines that any of the lights might have, with the distance of the sphere around the
+// box, or its radius within. Near a box these bounds are far above the light that comes, by factors
+// that differ from box to box. Here the C are means, for s that are evenly spread over
+// [s - S, s + S], and d^2 is that of lights that fill the box; the B are bounds again, as if all
+// lights were at the near side of the box. Means alone lose the nearest lights of long boxes beside
+// a point, which may have most of the light. Geometric means of both are close to what comes from
+// boxes above, beside and around a point.
 //
 // The importance is 0 if and only if s < -S or g < -G, when all lights are behind the surface or
 // all of them face away, or (for spots) w - o - b exceeds e with b the angle of the sphere around
@@ -33,15 +35,33 @@
 namespace osgRayTrace::engine
 {
 
-/// Returns the sum of the half extents of a node's box times the magnitudes of v's components.
-OSGRAYTRACE_INLINE float extentAlong(const LightNode& node, PlainVec3 v)
+/// Returns the half extents of a node's box, rounded up.
+OSGRAYTRACE_INLINE PlainVec3 halfExtents(const LightNode& node)
 {
     constexpr uint32_t kTenBits = 1023;
-    const auto x = static_cast<float>(static_cast<int32_t>(node.extents & kTenBits));
-    const auto y = static_cast<float>(static_cast<int32_t>((node.extents >> 10) & kTenBits));
-    const auto z = static_cast<float>(static_cast<int32_t>((node.extents >> 20) & kTenBits));
-    const float sum = std::fabs(v.x) * x + std::fabs(v.y) * y + std::fabs(v.z) * z;
-    return sum * (node.radius * (1.0f / 1023.0f));
+    const PlainVec3 steps{
+        static_cast<float>(static_cast<int32_t>(node.extents & kTenBits)),
+        static_cast<float>(static_cast<int32_t>((node.extents >> 10) & kTenBits)),
+        static_cast<float>(static_cast<int32_t>((node.extents >> 20) & kTenBits))};
+    return steps * (node.radius * (1.0f / 1023.0f));
+}
+
+/// Returns the sum of the half extents of a box times the magnitudes of v's components.
+OSGRAYTRACE_INLINE float extentAlong(PlainVec3 half, PlainVec3 v)
+{
+    return std::fabs(v.x) * half.x + std::fabs(v.y) * half.y + std::fabs(v.z) * half.z;
+}
+
+/// Returns about the square of the distance of a box, whose centre is at d, from the origin. Points
+/// within are taken to be some way off the lights: half of the least half extent, or more.
+OSGRAYTRACE_INLINE float clearance2(PlainVec3 d, PlainVec3 half, float radius)
+{
+    const PlainVec3 beyond{largest(std::fabs(d.x) - half.x, 0.0f),
+                           largest(std::fabs(d.y) - half.y, 0.0f),
+                           largest(std::fabs(d.z) - half.z, 0.0f)};
+    const float thin = least(half.x, least(half.y, half.z));
+    const float within = 0.5f * (thin * thin) + 0.003f * (radius * radius);
+    return largest(dot(beyond, beyond) + within, 1e-30f);
 }
 
 /// Cosines below this bound count as the bound: at grazing angles rounding decides on the sign.
@@ -61,10 +81,12 @@ enum class NodeLights
     Areas,
 };
 
-/// Returns about the mean of what is above 0 in [mean - extent, mean + extent]: see the top.
-OSGRAYTRACE_INLINE float meanAbove(float mean, float extent)
+/// Returns C times B: see the top. mean: s or g. extent: S or G. perDistance: 1 / m.
+OSGRAYTRACE_INLINE float cosines(float mean, float extent, float perDistance)
 {
-    return 0.5f * (mean + select(mean > extent, mean, extent));
+    const float average = 0.5f * (mean + largest(mean, extent)) * perDistance;
+    const float bound = least((mean + extent) * perDistance, 1.0f);
+    return largest(average, kGrazing) * largest(bound, kGrazing);
 }
 
 /// Returns whether lights of a node may shine as far from their normals as a point is, whose
@@ -87,51 +109,43 @@ OSGRAYTRACE_INLINE uint32_t mayShineTo(const LightNode& node, float distance2, f
 template <NodeLights kLights = NodeLights::Any>
 OSGRAYTRACE_INLINE float importance(const LightNode& node, PlainVec3 p, PlainVec3 normal)
 {
-    constexpr float kVariance = 1.0f / 6.0f;
     const PlainVec3 d{node.centre[0] - p.x, node.centre[1] - p.y, node.centre[2] - p.z};
     const PlainVec3 axis{node.axis[0], node.axis[1], node.axis[2]};
-    const float centre2 = dot(d, d);
-    const float mean2 = centre2 + kVariance * (node.radius * node.radius);
-    const float clear2 = select(mean2 > 1e-30f, mean2, 1e-30f);
-    const float inverse = 1.0f / std::sqrt(clear2);
-    const float rounding = -kGrazing * (clear2 * inverse);
+    const PlainVec3 half = halfExtents(node);
+    const float centre2 = dot(d, d), centre = std::sqrt(centre2);
+    const float mean2 = largest(centre2 + (1.0f / 3.0f) * (node.radius * node.radius), 1e-30f);
+    const float perDistance = 1.0f / std::sqrt(clearance2(d, half, node.radius));
+    const float rounding = -kGrazing * (centre + node.radius);
 
-    const float centre = std::sqrt(centre2);
     const float signedAlong = -dot(d, axis);
     const float along = select(node.intensity < 0.0f, std::fabs(signedAlong), signedAlong);
-    const float across2 = centre2 - along * along;
-    const float across = std::sqrt(select(across2 > 0.0f, across2, 0.0f));
+    const float across = std::sqrt(largest(centre2 - along * along, 0.0f));
     const float sinCone = sineOf(node.cosCone);
     const float facing =
         select(along > node.cosCone * centre, centre, along * node.cosCone + across * sinCone);
-    const float beside = extentAlong(node, axis) + node.radius * sinCone;
-    const uint32_t narrow = maskOf(node.cosCone > 0.0f) & maskOf(beside < node.radius);
-    const float facingExtent = select(narrow, beside, node.radius);
-    const float cosLight = meanAbove(facing, facingExtent) * inverse;
-    const float light = select(cosLight > kGrazing, cosLight, kGrazing);
+    const float beside = least(extentAlong(half, axis) + node.radius * sinCone, node.radius);
+    const float facingExtent = select(node.cosCone > 0.0f, beside, node.radius);
 
-    const float above = dot(d, normal), aboveExtent = extentAlong(node, normal);
-    const float cosSurface = meanAbove(above, aboveExtent) * inverse;
-    const float oneSided = select(cosSurface > kGrazing, cosSurface, kGrazing);
+    const float above = dot(d, normal), aboveExtent = extentAlong(half, normal);
     const uint32_t bothSides = maskOf(!(dot(normal, normal) > 0.0f));
-    const float surface = select(bothSides, 1.0f, oneSided);
+    const float surface = select(bothSides, 1.0f, cosines(above, aboveExtent, perDistance));
+    const float unfaded =
+        std::fabs(node.intensity) * std::sqrt(cosines(facing, facingExtent, perDistance) * surface);
 
     const uint32_t litSide = maskOf(above + aboveExtent > rounding) | bothSides;
     const uint32_t faces = maskOf(facing + facingExtent > rounding);
-    const float unfaded = std::fabs(node.intensity) * light * surface;
     if constexpr (kLights == NodeLights::Areas)
-        return select(litSide & faces, unfaded * (inverse * inverse), 0.0f);
+        return select(litSide & faces, unfaded / mean2, 0.0f);
 
     // Areas alone have an emission of exactly a hemisphere.
-    const float cosAxis = along / select(centre > 1e-15f, centre, 1e-15f);
+    const float cosAxis = along / largest(centre, 1e-15f);
     const uint32_t hemisphere = maskOf(node.cosEmission == 0.0f);
     const uint32_t shines =
         (faces & hemisphere) | (mayShineTo(node, centre2, cosAxis) & ~hemisphere);
     const float fading =
-        node.falloff[0] + node.falloff[1] * (clear2 * inverse) + node.falloff[2] * clear2;
+        node.falloff[0] + node.falloff[1] * std::sqrt(mean2) + node.falloff[2] * mean2;
     const uint32_t inReach = maskOf(centre2 <= node.reach * node.reach);
-    return select(litSide & shines & inReach, unfaded / select(fading > 1e-30f, fading, 1e-30f),
-                  0.0f);
+    return select(litSide & shines & inReach, unfaded / largest(fading, 1e-30f), 0.0f);
 }
 
 /// Returns the probability of the first node of a pair.

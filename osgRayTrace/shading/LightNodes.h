@@ -34,16 +34,6 @@ OSGRAYTRACE_INLINE PlainBounds plainOf(const LightBounds& b)
             plainOf(b.falloff), b.range};
 }
 
-OSGRAYTRACE_INLINE float least(float a, float b)
-{
-    return select(a < b, a, b);
-}
-
-OSGRAYTRACE_INLINE float largest(float a, float b)
-{
-    return select(a > b, a, b);
-}
-
 OSGRAYTRACE_INLINE PlainVec3 least(PlainVec3 a, PlainVec3 b)
 {
     return {least(a.x, b.x), least(a.y, b.y), least(a.z, b.z)};

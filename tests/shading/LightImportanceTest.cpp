@@ -23,17 +23,30 @@ Vec3 directionOf(Uniform& random)
 
 constexpr float kSide = 0.1f;
 
-/// Returns a thousand square lamps 5 to 6 above a square of 100 x 100. hanging: they all shine
-/// down.
-SceneBuilder lampsAbove(bool hanging)
+enum class Lamps
+{
+    Hanging, ///< anywhere, all of them shine down
+    Turned,  ///< anywhere, all directions
+    Streets, ///< on lines 4.5 off multiples of 30, all of them shine down
+};
+
+/// Returns a thousand square lamps 5 to 6 above a square of 300 x 300 for streets, else 100 x 100.
+SceneBuilder lampsAbove(Lamps lamps)
 {
     Uniform random(1);
     SceneBuilder builder;
     for (int i = 0; i < 1000; ++i)
     {
-        const double x = random.between(0, 100), y = random.between(0, 100);
-        const Vec3 place(x, y, random.between(5, 6));
-        const Vec3 normal = hanging ? Vec3(0, 0, -1) : directionOf(random);
+        double x = random.between(0, 100), y = random.between(0, 100), z = random.between(5, 6);
+        if (lamps == Lamps::Streets)
+        {
+            const double across = 30.0 * std::floor(x / 10.0) + (i % 4 < 2 ? 4.5 : -4.5);
+            x = i % 2 ? across : 3.0 * y;
+            y = i % 2 ? 3.0 * y : across;
+            z = 6.0;
+        }
+        const Vec3 place(x, y, z);
+        const Vec3 normal = lamps == Lamps::Turned ? directionOf(random) : Vec3(0, 0, -1);
         const Vec3 u = glm::normalize(glm::cross(normal, Vec3(0.6f, 0.8f, 0.1f))) * kSide;
         const Vec3 v = glm::cross(normal, u);
         builder.addQuadLight(place - 0.5f * (u + v), u, v, Vec3(1.0f));
@@ -74,19 +87,20 @@ double relativeVariance(const SceneLightTree& tree, Vec3 p, Vec3 normal)
 TEST_CASE("light importance: a choice among a thousand lamps near a point has little variance",
           "[shading]")
 {
-    // The bounds of [Conty18, eq. 3] in place of means have 6 to 16 times as much.
     struct Case
     {
-        bool hanging;
-        double height;
-        Vec3 normal;
+        Lamps lamps;
+        Vec3 place, normal; ///< the place along streets and above ground; the rest is by chance
         double most;
     };
-    for (const Case& at : {Case{true, 0, {0, 0, 1}, 0.5}, Case{true, 2, {0, 0, 1}, 0.8},
-                           Case{true, 2, {1, 0, 0}, 1.5}, Case{false, 0, {0, 0, 1}, 1.3},
-                           Case{false, 2, {1, 0, 0}, 2.0}})
+    const Vec3 up(0, 0, 1), across(-1, 0, 0);
+    for (const Case& at :
+         {Case{Lamps::Hanging, {0, 0, 0}, up, 0.3}, Case{Lamps::Hanging, {0, 0, 2}, up, 0.4},
+          Case{Lamps::Hanging, {0, 0, 2}, across, 0.8}, Case{Lamps::Turned, {0, 0, 0}, up, 1.1},
+          Case{Lamps::Turned, {0, 0, 2}, across, 2.0}, Case{Lamps::Streets, {0, 0, 0}, up, 0.7},
+          Case{Lamps::Streets, {6, 0, 2}, across, 2.0}})
     {
-        const SceneBuilder builder = lampsAbove(at.hanging);
+        const SceneBuilder builder = lampsAbove(at.lamps);
         const LightTable table(*builder.scene);
         Uniform random(2);
         double mean = 0.0;
@@ -94,9 +108,11 @@ TEST_CASE("light importance: a choice among a thousand lamps near a point has li
         for (int k = 0; k < kPoints; ++k)
         {
             const double x = random.between(5, 95), y = random.between(5, 95);
-            mean += relativeVariance(*table.tree(), Vec3(x, y, at.height), at.normal) / kPoints;
+            Vec3 p = at.place + Vec3(x, y, 0);
+            if (at.lamps == Lamps::Streets) p = at.place + Vec3(30.0 * (1 + k % 8), 3.0 * y, 0);
+            mean += relativeVariance(*table.tree(), p, at.normal) / kPoints;
         }
-        CAPTURE(at.hanging, at.height, at.normal.x, mean);
+        CAPTURE(int(at.lamps), at.place.z, at.normal.x, mean);
         CHECK(mean < at.most);
     }
 }
@@ -120,7 +136,7 @@ TEST_CASE("light importance: a node's extents hold its box, in steps of a thousa
         {
             Vec3 along(0.0f);
             along[c] = -1.0f;
-            const double extent = extentAlong(node, plainOf(along));
+            const double extent = extentAlong(halfExtents(node), plainOf(along));
             REQUIRE(extent >= half[c] * (1.0 - 1e-6));
             REQUIRE(extent <= half[c] + 1.01 * step);
         }
