@@ -16,6 +16,8 @@
 #include "osgRayTrace/shading/LayeredBsdf.h"
 
 #include <cmath>
+#include <memory>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -88,6 +90,32 @@ struct SunSpots
     SunSpot spots[kBeams];
 };
 
+/// The glossy surfaces that camera rays of a block met, and the paths as they came there.
+struct GlossyBlock
+{
+    LaneMask lanes = 0;
+    SurfaceLanes surface;
+    Vec3Lanes normal; ///< shading normals on the side of the ray
+    PathBlock path;
+    std::vector<Bsdf> bsdfs; ///< of the lanes, in their order
+
+    bool has(uint32_t lane) const { return (lanes >> lane) & 1u; }
+    const Bsdf& bsdf(int lane) const
+    {
+        return bsdfs[static_cast<std::size_t>(countLanes(lanes & ((1u << lane) - 1u)))];
+    }
+};
+
+/// What the tile knows of paths from glossy surfaces to glossy surfaces: see PathChains.cpp.
+struct GlossyChains
+{
+    bool active = false;
+    std::unique_ptr<GlossyBlock> first[kTileBlocks]; ///< null: the block has none
+    /// Rays of each pixel that met a glossy surface after the first; 0: the path's own ray did not.
+    uint8_t rays[kTilePixels] = {};
+    LaneMask met[kTileBlocks] = {}; ///< pixels that have such rays
+};
+
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
@@ -114,6 +142,7 @@ struct Tile
     ReuseGroups reuse;
     SkyRays sky;
     SunSpots spots;
+    GlossyChains chains;
     Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
     GatherScratch gatherScratch; ///< scratch of all photon look-ups
     bool hasBeams = false;       ///< beams are those near the tile's camera rays
@@ -239,6 +268,29 @@ void sampleLights(Tile& tile, PathBlock& block, const Bounce& bounce);
 
 /// Sets the ray of each lane that goes on, and removes the other lanes from block.active.
 void scatter(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Decides whether paths from glossy surfaces have companions.
+void beginChains(Tile& tile, PhotonUse use);
+
+/// Returns the lanes all of whose lobes are narrow, but not mirror-like, and reflect.
+LaneMask glossyLanes(const Bounce& bounce);
+
+/// Records the glossy surfaces that the camera rays of block b met, before the paths go on.
+void recordGlossy(Tile& tile, int b, const Bounce& bounce);
+
+/// Marks the paths that have met a glossy surface after another one, and counts them for their
+/// pixels: what they find from here on is added to sums of their own.
+void countChains(Tile& tile, PathBlock& block, const Bounce& bounce);
+
+/// Sends more rays from the glossy surfaces of the pixels that countChains has counted.
+void addCompanions(Tile& tile, PhotonUse use);
+
+/// Traces rays from glossy surfaces that camera rays met, and drops those that meet no glossy
+/// surface. The others go on as paths of their pixels.
+void bounceCompanions(Tile& tile, PathBlock& block, PhotonUse use);
+
+/// Adds the mean light of the paths that countChains has counted to their pixels.
+void addChains(Tile& tile);
 
 /// Sets the reuse groups of the tile. No path is reused with PhotonUse::Indirect or with photons of
 /// the local schedule, which are counted pixel by pixel.

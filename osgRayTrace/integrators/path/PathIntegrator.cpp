@@ -17,7 +17,7 @@
 // beta, and with beta the variance, grow along paths that lose less than q takes. Sixteen paths are
 // followed together; after each bounce the tile's remaining paths move up into the lanes of those
 // that ended. The light that a path finds from its second surface on is shared with other pixels,
-// see PathReuse.cpp.
+// see PathReuse.cpp. Paths from one glossy surface to another get company, see PathChains.cpp.
 #include "osgRayTrace/integrators/path/PathIntegrator.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -201,11 +201,13 @@ void bounceBlock(Tile& tile, int b, int number, bool last, PhotonUse use)
         return;
     }
     if (number == 1 && tile.reuse.active) reusePaths(tile, block, bounce);
+    if (number == 1 && tile.chains.active) countChains(tile, block, bounce);
     if (bounce.subsurface)
         addSubsurface(tile, block, bounce, use);
     else
         addLightAt(tile, block, bounce, use);
     if (number == 0 && tile.reuse.active) recordFirstSurfaces(tile, b, bounce);
+    if (number == 0 && tile.chains.active) recordGlossy(tile, b, bounce);
     if (traced.lights().tree())
         block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
     scatter(tile, block, bounce);
@@ -238,14 +240,17 @@ void tracePaths(Tile& tile, PhotonUse use)
     beginReuse(tile, use);
     beginSkyRays(tile, use);
     beginSunSpots(tile);
+    beginChains(tile, use);
     for (int number = 0; tile.paths.count > 0; ++number)
     {
         const bool last = number >= context.options.maxBounces;
         for (int b = 0; b < tile.paths.count; ++b)
             if (tile.paths.blocks[b].active) bounceBlock(tile, b, number, last, use);
+        if (number == 1 && tile.chains.active) addCompanions(tile, use);
         compactPaths(tile.paths, context.traced->lights().tree() != nullptr);
     }
     connectPaths(tile);
+    addChains(tile);
 }
 
 void writeSums(const Tile& tile, RgbaLanes* rgba)
@@ -294,6 +299,34 @@ void gatherOnly(Tile& tile, PhotonUse use)
 }
 
 } // namespace
+
+void bounceCompanions(Tile& tile, PathBlock& block, PhotonUse use)
+{
+    const TracedScene& traced = *tile.context.traced;
+    const SceneTraits& traits = traced.traits();
+    traced.intersector().closestHits(block.rays, block.active, Coherence::Incoherent, HitRule());
+    tile.counts.secondaryRays += static_cast<uint64_t>(countLanes(block.active));
+    countRays(tile, block, block.active);
+    Bounce bounce;
+    bounce.number = 1;
+    bounce.bsdfs = tile.bsdfs;
+    surfacesOf(traced.surfaces(), block.rays, block.active, bounce.surface,
+               rayStart(tile.context.options));
+    if (traits.normalMaps) applyNormalMaps(traced, block.rays, bounce.surface);
+    if (traits.mipmaps) setFootprints(block.rays.ray, block.cones, bounce.surface);
+    if (traits.panes || traits.attenuation) passMaterials(tile, block, bounce, bounce.number);
+    classify(tile, block, bounce);
+    block.active &= glossyLanes(bounce);
+    if (!block.active) return;
+    bounce.surface.hits &= block.active;
+    bounce.general &= block.active;
+    bounce.diffuse = bounce.smooth = bounce.transmissive = bounce.subsurface = 0;
+    countChains(tile, block, bounce);
+    addLightAt(tile, block, bounce, use);
+    if (traced.lights().tree())
+        block.vertices = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
+    scatter(tile, block, bounce);
+}
 
 void PathIntegrator::renderTile(const PassContext& context, int left, int bottom,
                                 TileResult& result) const

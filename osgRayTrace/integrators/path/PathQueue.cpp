@@ -7,11 +7,7 @@
 namespace osgRayTrace::engine
 {
 
-namespace
-{
-
-/// Copies the path in lane i of from to lane k of to; tFar is left as it is.
-void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
+void copyPath(const PathBlock& from, int i, PathBlock& to, int k)
 {
     to.rays.ray.originX[k] = from.rays.ray.originX[i];
     to.rays.ray.originY[k] = from.rays.ray.originY[i];
@@ -31,7 +27,6 @@ void moveLane(const PathBlock& from, int i, PathBlock& to, int k)
     to.bodies[k] = from.bodies[i];
 }
 
-/// Sets the fields that Embree reads of all rays of a packet and that no copy of a path sets.
 void clearRays(RayBlock& ray)
 {
     for (int i = 0; i < kLanes; ++i)
@@ -40,6 +35,9 @@ void clearRays(RayBlock& ray)
         ray.id[i] = ray.flags[i] = 0;
     }
 }
+
+namespace
+{
 
 void moveVertex(const PathBlock& from, int i, PathBlock& to, int k)
 {
@@ -55,7 +53,7 @@ PathPlace addPath(PathQueue& paths, const PathBlock& from, int i, bool withVerti
     PathBlock& to = paths.blocks[paths.count + paths.added / kLanes];
     const int lane = paths.added++ % kLanes;
     if (lane == 0) clearRays(to.rays.ray);
-    moveLane(from, i, to, lane);
+    copyPath(from, i, to, lane);
     if (withVertices) moveVertex(from, i, to, lane);
     to.active = lane == 0 ? 1u : to.active | (1u << lane);
     return {to, lane};
@@ -74,7 +72,7 @@ void compactPaths(PathQueue& paths, bool withVertices)
             if (count != b * kLanes + i)
             {
                 PathBlock& to = paths.blocks[count / kLanes];
-                moveLane(from, i, to, count % kLanes);
+                copyPath(from, i, to, count % kLanes);
                 if (withVertices) moveVertex(from, i, to, count % kLanes);
             }
             ++count;

@@ -39,7 +39,9 @@ struct PathQueue
     int count = kTileBlocks; ///< number of blocks in use
     int added = 0;           ///< paths behind those blocks, which begin with the next bounce
 
-    bool hasRoom() const { return count * kLanes + added < kBlocks * kLanes; }
+    /// Returns how many paths may still be added before the next bounce.
+    int room() const { return kBlocks * kLanes - count * kLanes - added; }
+    bool hasRoom() const { return room() > 0; }
 };
 
 /// The place of a path in a queue.
@@ -48,6 +50,12 @@ struct PathPlace
     PathBlock& block;
     int lane;
 };
+
+/// Copies the path in lane i of from to lane k of to, without its vertices and its tFar.
+void copyPath(const PathBlock& from, int i, PathBlock& to, int k);
+
+/// Sets the fields that Embree reads of all rays of a packet and that no copy of a path sets.
+void clearRays(RayBlock& ray);
 
 /// Adds a copy of the path in lane i of from, which does not bounce before the paths have been
 /// compacted. The queue must have room. The vertices are copied if they are set.
