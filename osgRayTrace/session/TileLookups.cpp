@@ -36,8 +36,10 @@ namespace
 constexpr float kRoundedDown = 1.0f - 0x1p-19f;
 
 /// A pixel that has not found its disc wrong takes its footprint all the same if so many of its
-/// eight neighbours do: its disc reaches into them.
+/// eight neighbours do, and if the nine have seen a squared bias of so many standard errors: its
+/// disc reaches into them, and they have not changed over by chance.
 constexpr int kChangedNeighbours = 3;
+constexpr float kNeighbourSignificance = 2.0f;
 
 /// Discs leak if one of so many of the tile's pixels has changed over.
 constexpr int kLeakingShare = 16;
@@ -51,6 +53,34 @@ constexpr float kEarlierLeak = 1.85f;
 int passesOfHalf(int passes, int half)
 {
     return (passes + 1 - half) / 2;
+}
+
+/// What a pixel knows of its discs, or sums over some pixels. The products of the differences of
+/// two passes have the squared bias as their mean: FootprintBias::addPixel.
+struct Neighbour
+{
+    int changed = 0;
+    float products = 0.0f; ///< sum of the products
+    float variance = 0.0f; ///< variance of products if there is no bias
+
+    void add(const Neighbour& other)
+    {
+        changed += other.changed;
+        products += other.products;
+        variance += other.variance;
+    }
+    bool areWrong() const
+    {
+        return changed >= kChangedNeighbours &&
+               products > kNeighbourSignificance * std::sqrt(variance);
+    }
+};
+
+Neighbour neighbourOf(const SeenPlane& pixel)
+{
+    return {pixel.lookup == PixelLookup::Footprint,
+            pixel.difference * pixel.difference - pixel.squares,
+            2.0f * pixel.squares * pixel.squares};
 }
 
 void addLight(std::size_t pixel, Vec3 light, RgbaLanes* rgba)
@@ -101,23 +131,24 @@ void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLan
 /// Changes pixels over among others that have changed, and tells whether the rest leaks.
 void TileLookups::endChoosing()
 {
-    int changed[kTileSize + 2][kTileSize + 2] = {}; // with a margin
+    Neighbour pixels[kTileSize + 2][kTileSize + 2] = {}; // with a margin
     const auto placeOf = [&](std::size_t p)
     {
         const int block = static_cast<int>(p) / kLanes, lane = static_cast<int>(p) % kLanes;
-        return &changed[laneY(block, lane) + 1][laneX(block, lane) + 1];
+        return &pixels[laneY(block, lane) + 1][laneX(block, lane) + 1];
     };
     for (std::size_t p = 0; p < kTilePixels; ++p)
-        *placeOf(p) = planes[p].lookup == PixelLookup::Footprint;
+        *placeOf(p) = neighbourOf(planes[p]);
     int count = 0;
     float light = 0.0f;
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
-        const int* const place = placeOf(p);
-        int neighbours = 0;
-        for (const int* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
-            neighbours += row[-1] + row[0] + row[1];
-        if (planes[p].lookup == PixelLookup::Compared && neighbours >= kChangedNeighbours)
+        const Neighbour* const place = placeOf(p);
+        Neighbour sum;
+        for (const Neighbour* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
+            for (int k = -1; k <= 1; ++k)
+                sum.add(row[k]);
+        if (planes[p].lookup == PixelLookup::Compared && sum.areWrong())
         {
             planes[p].lookup = PixelLookup::Footprint;
             _changes[p] = kChoosingPasses;

@@ -35,6 +35,10 @@ constexpr float kLargestDisc = 64.0f;
 /// that of all photons, for which footprints have more noise.
 constexpr float kCausticSignificance = 2.0f, kIndirectSignificance = 3.0f;
 
+/// A footprint without a photon says little as long as fewer than so many are expected in it: by
+/// the photons of the disc, in all passes that were compared. The standard error is too small then.
+constexpr float kLeastExpected = 3.0f;
+
 /// Footprints that are longer than this many roots of their area are left to discs.
 constexpr float kLongestFootprint = 4.0f;
 
@@ -181,6 +185,18 @@ SeenPlane planeToCompare(Tile& tile, uint32_t index, const Bounce& bounce,
     return result;
 }
 
+/// Returns how many photons a pixel has in its footprint, judged by those in its disc.
+float expectedPhotons(Tile& tile, const PhotonQuery& disc)
+{
+    std::vector<uint32_t>& found = tile.gatherScratch.found;
+    found.clear();
+    tile.context.photons->find(disc, found);
+    const PixelProjection& projection = *tile.context.projection;
+    const float area =
+        projection.pixelArea(disc.position, projection.place(disc.position).s, disc.normal);
+    return static_cast<float>(found.size()) * area / (kPi * disc.radius * disc.radius);
+}
+
 } // namespace
 
 void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -195,8 +211,8 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = gathered.planes[pixel];
-        const bool compares = known.lookup == PixelLookup::Compared &&
-                              (gathered.choosesPlanes || gathered.balances);
+        const bool compares =
+            known.lookup == PixelLookup::Compared && (gathered.choosesPlanes || gathered.balances);
         if (known.lookup != PixelLookup::Footprint && !compares) continue;
         pixels[i] = cornerOf(tile, pixel);
         const Footprint footprint =
@@ -244,7 +260,11 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
         ++known.compared;
         known.difference += difference;
         known.squares += difference * difference;
-        if (known.difference * known.difference > significance * significance * known.squares)
+        if (!(known.difference * known.difference > significance * significance * known.squares))
+            continue;
+        const auto passes = static_cast<float>(known.compared);
+        if (known.difference < 0.0f ||
+            passes * expectedPhotons(tile, laneOf(queries, i)) >= kLeastExpected)
             known.lookup = PixelLookup::Footprint;
     }
 }
