@@ -265,7 +265,6 @@ std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const 
     OSGRAYTRACE_ASSERT(_mutex.isHeld());
     if (index < kFirst || _points.empty() || _scene.traced->traits().media) return nullptr;
     if (_lookedForOpenings) return _openings;
-    _lookedForOpenings = true;
     std::vector<SeenPoint> seen;
     for (const SeenPoints& points : _points)
         seen.insert(seen.end(), points.points.begin(), points.points.end());
@@ -281,13 +280,20 @@ std::shared_ptr<const PhotonOpenings> PhotonPasses::openingsOf(int index, const 
     };
     const uint32_t many = std::min(2 * _scene.options.photons, kMostPilots);
     if (_fewFlights.empty()) _fewFlights = traceFlights(std::max(many / 64, 1u), 1, nullptr);
-    if (seenShare(sphere, _fewFlights, seen) > kMostSeenShare) return nullptr;
-    if (_flights.empty()) _flights = traceFlights(many, 2, nullptr);
-    _openings = findOpenings(sphere, _flights, seen, many);
-    if (!_openings) std::vector<PhotonFlight>().swap(_flights); // they are some megabytes
-    if (_openings)
-        _openings =
-            refineOpenings(sphere, traceFlights(many, 3, _openings.get()), seen, many, _openings);
+    std::shared_ptr<const PhotonOpenings> openings;
+    if (seenShare(sphere, _fewFlights, seen) <= kMostSeenShare)
+    {
+        if (_flights.empty()) _flights = traceFlights(many, 2, nullptr);
+        openings = findOpenings(sphere, _flights, seen, many);
+        if (openings)
+            openings =
+                refineOpenings(sphere, traceFlights(many, 3, openings.get()), seen, many, openings);
+        else
+            std::vector<PhotonFlight>().swap(_flights); // they are some megabytes
+    }
+    // An exception above leaves all as it was, so that the next pass looks again.
+    _openings = std::move(openings);
+    _lookedForOpenings = true;
     return _openings;
 }
 
