@@ -29,8 +29,9 @@ constexpr double kFirstHeld = 0.75, kFineHeld = 0.9;
 /// The expected number of children of a photon, all its surfaces together, if nothing limits it.
 constexpr double kFirstChildren = 1.0, kFineChildren = 4.0;
 
-/// Flights from which openings are found, at least.
-constexpr std::size_t kLeastFlights = 16;
+/// Flights from which openings are found: at least, and at most for the small ones, as the time and
+/// the memory of the search go with their number.
+constexpr std::size_t kLeastFlights = 16, kMostFlights = 4096;
 
 /// Openings are small if no more than these shares of all flights go through them, and of the power
 /// of all flights is that of those that enter.
@@ -136,6 +137,16 @@ std::vector<UsefulFlight> enteringFlights(const Sphere& scene,
     return entering;
 }
 
+/// Returns kMostFlights of the flights, or all if there are no more.
+std::vector<UsefulFlight> someOf(std::vector<UsefulFlight> flights)
+{
+    if (flights.size() <= kMostFlights) return flights;
+    std::vector<UsefulFlight> some;
+    for (std::size_t k = 0; k < kMostFlights; ++k)
+        some.push_back(flights[k * flights.size() / kMostFlights]);
+    return some;
+}
+
 /// Sets the weights of openings and drops those that bring little. Of a sphere's cone one does not
 /// know which part sees through; the least variance for so many children is then had by densities
 /// in proportion to the root of the share that gets through.
@@ -225,7 +236,7 @@ refineOpenings(const Sphere& scene, const std::vector<PhotonFlight>& flights,
                const std::vector<SeenPoint>& seen, double photons,
                const std::shared_ptr<const PhotonOpenings>& first)
 {
-    const std::vector<UsefulFlight> entering = enteringFlights(scene, flights, seen);
+    const std::vector<UsefulFlight> entering = someOf(enteringFlights(scene, flights, seen));
     if (entering.size() < kLeastFlights) return first;
     std::vector<PhotonOpening> openings;
     std::vector<bool> isHeld(entering.size());
