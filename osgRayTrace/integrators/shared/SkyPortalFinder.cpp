@@ -110,7 +110,7 @@ std::vector<Vec3> normalsOf(const Seen& seen)
                 [&](const Axis& axis) { return std::fabs(glm::dot(axis.direction, n)) > 0.99f; });
             if (same != axes.end())
                 ++same->count;
-            else if (axes.size() < 64)
+            else
                 axes.push_back({n, 1});
         }
     std::stable_sort(axes.begin(), axes.end(),
@@ -286,6 +286,7 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
 {
     constexpr int kSteps = 8;
     constexpr float kAsGood = 1.1f;
+    constexpr float kMostlyCrossed = 0.9f;
     constexpr float kRim = 0.03f; // light may cross where no ray from what is seen did
     const Vec2 margin = 0.1f * (opening.bounds.high - opening.bounds.low) + 0.5f * cell;
     Opening wider = opening;
@@ -296,7 +297,7 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
     if (flights.size() < kLeastFlights) return;
     const Vec3 at = opening.frame.at;
     std::array<Opening, 2 * kSteps + 1> planes;
-    float least = kInfinity;
+    int most = 0;
     for (int k = -kSteps; k <= kSteps; ++k)
     {
         Opening& moved = planes[static_cast<std::size_t>(k + kSteps)];
@@ -305,13 +306,21 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
         for (const Flight& flight : flights)
         {
             const Vec2 crossing = crossingOf(moved.frame, flight);
-            if (crossing.x < kInfinity) moved.bounds.add(crossing);
+            if (!(crossing.x < kInfinity)) continue;
+            moved.bounds.add(crossing);
+            ++moved.count;
         }
-        least = std::min(least, moved.bounds.area());
+        most = std::max(most, moved.count);
     }
+    // Few flights cross a plane that what is seen lies beyond.
+    const auto isCrossed = [most](const Opening& plane)
+    { return static_cast<float>(plane.count) >= kMostlyCrossed * static_cast<float>(most); };
+    float least = kInfinity;
+    for (const Opening& plane : planes)
+        if (isCrossed(plane)) least = std::min(least, plane.bounds.area());
     // The outermost of the planes that are as good: reveals are then on the inner side.
     for (const Opening& plane : planes)
-        if (plane.bounds.area() <= kAsGood * least) opening = plane;
+        if (isCrossed(plane) && plane.bounds.area() <= kAsGood * least) opening = plane;
     const Vec2 rim = kRim * (opening.bounds.high - opening.bounds.low);
     opening.bounds.low -= rim;
     opening.bounds.high += rim;
@@ -325,7 +334,11 @@ bool lightsSpots(const TracedScene& traced)
     if (traits.blended || traits.normalMaps || traits.attenuation || traits.subsurface)
         return false;
     for (std::size_t k = 0; k < traced.scene().materials.size(); ++k)
-        if (traced.materials()[static_cast<uint32_t>(k)].partial) return false;
+    {
+        const Material& m = traced.scene().materials[k];
+        const bool oneWay = m.cullsAllRays || m.alphaTest != AlphaTest::Always;
+        if (oneWay && traced.materials()[static_cast<uint32_t>(k)].partial) return false;
+    }
     return true;
 }
 
@@ -415,6 +428,7 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
         Opening opening = openingNear(flights, normals, votes.mostWanted(), votes.cell);
         if (!(opening.worth > 0.0)) break;
         refine(context, seen, votes.cell, counts, opening);
+        if (!(opening.bounds.area() > 0.0f && opening.bounds.area() < kInfinity)) break;
         const auto before = flights.size();
         flights.erase(std::remove_if(flights.begin(), flights.end(),
                                      [&](const Flight& flight)
