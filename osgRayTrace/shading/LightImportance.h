@@ -22,12 +22,12 @@
 // a point, which may have most of the light. Geometric means of both are close to what comes from
 // boxes above, beside and around a point.
 //
-// The importance is 0 if and only if s < -S or g < -G, when all lights are behind the surface or
-// all of them face away, or (for spots) w - o - b exceeds e with b the angle of the sphere around
-// the box as seen from the point. The cosine at the surface has its sign unlike in [Conty18], so
-// that lights behind an opaque surface cost no samples. The last factor is OpenGL's attenuation
-// [OpenGL21, eq. 2.2], which is d^2 for areas. Beyond the largest range of the lights the
-// importance is 0.
+// For lights in reach the importance is 0 if and only if s < -S or g < -G, when all lights are
+// behind the surface or all of them face away, or (for spots) w - o - b exceeds e with b the angle
+// of the sphere around the box as seen from the point. The cosine at the surface has its sign
+// unlike in [Conty18], so that lights behind an opaque surface cost no samples. The last factor is
+// OpenGL's attenuation [OpenGL21, eq. 2.2], which is d^2 for areas. Beyond the largest range of the
+// lights the importance is 0.
 #pragma once
 
 #include "osgRayTrace/shading/LightBounds.h"

@@ -314,6 +314,34 @@ TEST_CASE("sky portals: openings are found where they are", "[integrators]")
     CHECK_FALSE(portalsOf(open.builder.build(), open.view(128, 96)));
 }
 
+TEST_CASE("sky portals: ground outside an opening does not hide it", "[integrators]")
+{
+    Room room;
+    room.turn = turned();
+    room.build(false, true);
+    room.wall({-98, -97.5f, -0.01f}, {200, 0, 0}, {0, 200, 0});
+    room.addSunnySky();
+    const auto traced = room.builder.build();
+    const auto at = [&room](Vec3 p) { return Vec3d(room.turn * p); };
+    const View down =
+        perspectiveView(at({2.6f, 1.6f, 2.1f}), at({4, 2.5f, 1.4f}), at({0, 0, 1}), 60.0, 128, 96);
+    for (const View& view : {room.view(128, 96), down})
+    {
+        const auto portals = portalsOf(traced, view);
+        REQUIRE(portals);
+        REQUIRE(portals->rectangles().size() == 1);
+        const RectangleLight& r = portals->rectangles()[0];
+        // Light comes from above alone, so that a plane farther out is about as good.
+        CHECK(r.width == Approx(1.1f).margin(0.12f));
+        CHECK(r.height == Approx(1.1f).margin(0.12f));
+        const PlainVec3 middle =
+            mad(r.axisU, 0.5f * r.width, mad(r.axisV, 0.5f * r.height, r.corner));
+        const Vec3 local = glm::transpose(room.turn) * Vec3(middle.x, middle.y, middle.z);
+        CAPTURE(local.x, local.y, local.z);
+        CHECK(glm::length(local - Vec3(4.0f, 2.5f, 1.5f)) < 0.15f);
+    }
+}
+
 TEST_CASE("sky portals: the mean of surfaces that know none, and much less noise",
           "[integrators][statistics]")
 {

@@ -75,18 +75,19 @@ struct SunSpot
 {
     Vec3 position, normal; ///< the normal is on the lit side
     float offset;          ///< as that of SurfaceLanes
-    Vec3 radiance;         ///< that it sends back, times the density of beams [W/(m^2 sr^2)]
-    float byLight;         ///< density of light samples at the spot towards the beam [1/sr]
-    float byBeam;          ///< density of beams [1/(sr area)]
+    Vec3 radiance; ///< that it sends back per solid angle of the beam's direction [W/(m^2 sr^2)]
+    float byLight; ///< density of light samples at the spot towards the beam [1/sr]
+    float byBeam;  ///< density of beams [1/(sr area)]
 };
 
+/// The spots of a tile.
 struct SunSpots
 {
     static constexpr int kBeams = 64;
 
-    bool active = false;
-    int count = 0;
-    int outside = 0; ///< the first ones, whose beams have passed no pane; 0 without panes
+    bool active = false; ///< the pass knows portals whose beams light spots
+    int count = 0;       ///< of spots: beams that ended at surfaces that can be spots
+    int outside = 0;     ///< the first ones, whose beams have passed no pane; 0 without panes
     SunSpot spots[kBeams];
 };
 

@@ -72,15 +72,16 @@ LaneMask passPanesStraight(Tile& tile, RayHitBlock& rays, LaneMask lanes, Surfac
     return all;
 }
 
-/// Returns the lanes whose surfaces can be spots.
-LaneMask spotLanes(const Tile& tile, const SurfaceLanes& surface, const Vec3Lanes& normal)
+/// Returns the lanes whose surfaces can be spots, whatever side the rays came from.
+LaneMask spotLanes(const Tile& tile, const SurfaceLanes& surface)
 {
     const MaterialTable& materials = tile.context.traced->materials();
     LaneMask lanes = 0;
     for (const int i : lanesIn(surface.hits & ~surface.terminatorLanes))
     {
         const MaterialRecord& record = materials[surface.material[i]];
-        const bool flat = glm::dot(laneOf(normal, i), laneOf(surface.geometricNormal, i)) > kFlat;
+        const bool flat = std::fabs(glm::dot(laneOf(surface.shadingNormal, i),
+                                             laneOf(surface.geometricNormal, i))) > kFlat;
         const bool diffuse = record.plainDiffuse && record.front.diffuse != Vec3(0.0f);
         lanes |= static_cast<LaneMask>(flat && diffuse) << i;
     }
@@ -121,7 +122,7 @@ void addSpots(Tile& tile, const UintLanes& seeds, uint32_t index)
         traced.traits().panes ? passPanesStraight(tile, rays, sent, surface) : 0;
     Vec3Lanes normal;
     facingNormalLanes(rays.ray, surface, normal);
-    for (const int i : lanesIn(spotLanes(tile, surface, normal) & sent))
+    for (const int i : lanesIn(spotLanes(tile, surface) & sent))
     {
         const Vec3 wi = laneOf(samples.wi, i);
         if (!(glm::dot(wi, laneOf(surface.geometricNormal, i)) > 0.0f)) continue;
@@ -257,7 +258,7 @@ void sampleSunSpots(Tile& tile, PathBlock& block, const Bounce& bounce, const Ui
 LaneMask lanesOnSpots(const Tile& tile, const PathBlock& block, const Bounce& bounce)
 {
     if (!tile.spots.active || bounce.number == 0) return 0;
-    LaneMask lanes = spotLanes(tile, bounce.surface, bounce.normal) & bounce.diffuse;
+    LaneMask lanes = spotLanes(tile, bounce.surface) & bounce.diffuse;
     if (bounce.number == 1) lanes &= bounce.behindPanes;
     for (const int i : lanesIn(lanes))
         if (!(block.pdfW[i] < kInfinity)) lanes &= ~(1u << i);

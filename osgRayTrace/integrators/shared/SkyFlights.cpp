@@ -18,20 +18,14 @@ namespace osgRayTrace::engine
 namespace
 {
 
-/// Sets what the rays of a block met, and its bounds. Panes are no surfaces that light ends at.
-void setSeen(const PassContext& context, const RayHitBlock& rays, LaneMask active, Seen& seen,
-             SeenBlock& block)
+/// Sets what the rays of a block met. Panes are no surfaces that light ends at.
+void setSeen(const PassContext& context, const RayHitBlock& rays, LaneMask active, SeenBlock& block)
 {
     surfacesOf(context.traced->surfaces(), rays, active, block.surface);
     facingNormalLanes(rays.ray, block.surface, block.normal);
     const MaterialTable& materials = context.traced->materials();
     for (const int i : lanesIn(block.surface.hits))
-    {
-        if (materials[block.surface.material[i]].pane) continue;
-        block.lanes |= 1u << i;
-        seen.low = glm::min(seen.low, laneOf(block.surface.position, i));
-        seen.high = glm::max(seen.high, laneOf(block.surface.position, i));
-    }
+        if (!materials[block.surface.material[i]].pane) block.lanes |= 1u << i;
 }
 
 /// Returns a direction that a Lambert surface sends a ray to.
@@ -54,7 +48,6 @@ Seen lookAround(const PassContext& context, TileCounts& counts)
     const int64_t all = int64_t(tiles) * kTileBlocks;
     const auto count = static_cast<std::size_t>(std::min<int64_t>(all, kFlightBlocks / 2));
     seen.blocks.resize(2 * count);
-    seen.low = seen.high = context.eye;
     for (std::size_t k = 0; k < count; ++k)
     {
         // One block of each stretch of the image, by chance.
@@ -68,7 +61,7 @@ Seen lookAround(const PassContext& context, TileCounts& counts)
         intersector.closestHits(rays, kAllLanes, Coherence::Coherent, kCameraRays);
         counts.cameraRays += kLanes;
         SeenBlock& block = seen.blocks[k];
-        setSeen(context, rays, kAllLanes, seen, block);
+        setSeen(context, rays, kAllLanes, block);
         RayHitBlock further;
         for (const int i : lanesIn(block.lanes))
         {
@@ -77,20 +70,30 @@ Seen lookAround(const PassContext& context, TileCounts& counts)
         }
         intersector.closestHits(further, block.lanes, Coherence::Incoherent);
         counts.secondaryRays += static_cast<uint64_t>(countLanes(block.lanes));
-        setSeen(context, further, block.lanes, seen, seen.blocks[count + k]);
+        setSeen(context, further, block.lanes, seen.blocks[count + k]);
     }
+    setBounds(context.eye, seen);
     return seen;
 }
 
-int addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
-               TileCounts& counts, std::vector<Flight>& flights)
+void setBounds(Vec3 eye, Seen& seen)
 {
-    const int sent = countLanes(samples.lit);
+    seen.low = seen.high = eye;
+    for (const SeenBlock& block : seen.blocks)
+        for (const int i : lanesIn(block.lanes))
+        {
+            seen.low = glm::min(seen.low, laneOf(block.surface.position, i));
+            seen.high = glm::max(seen.high, laneOf(block.surface.position, i));
+        }
+}
+
+void addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
+                TileCounts& counts, std::vector<Flight>& flights)
+{
     samples.tinted = 0;
     const LaneMask visible = visibleLanes(context, samples, counts);
     for (const int i : lanesIn(visible))
-        flights.push_back({laneOf(seen.surface.position, i), laneOf(samples.wi, i), block});
-    return sent;
+        flights.push_back({laneOf(seen.surface.position, i), laneOf(samples.wi, i), block, i});
 }
 
 void setFlight(const SeenBlock& seen, int i, Vec3 wi, LightLanes& samples)
@@ -101,21 +104,21 @@ void setFlight(const SeenBlock& seen, int i, Vec3 wi, LightLanes& samples)
     samples.lit |= 1u << i;
 }
 
-int sendAround(const PassContext& context, const Seen& seen, int first, int last,
-               TileCounts& counts, std::vector<Flight>& flights)
+void sendAround(const PassContext& context, Seen& seen, int first, int last, TileCounts& counts,
+                std::vector<Flight>& flights)
 {
-    int sent = 0;
     for (int round = first; round < last; ++round)
         for (std::size_t b = 0; b < seen.blocks.size(); ++b)
         {
-            const SeenBlock& block = seen.blocks[b];
+            SeenBlock& block = seen.blocks[b];
             LightLanes samples;
             for (const int i : lanesIn(block.lanes))
                 setFlight(block, i, lambertDirection(block, i, static_cast<uint32_t>(round), b),
                           samples);
-            sent += addFlights(context, block, static_cast<int>(b), samples, counts, flights);
+            for (const int i : lanesIn(samples.lit))
+                ++block.sent[i];
+            addFlights(context, block, static_cast<int>(b), samples, counts, flights);
         }
-    return sent;
 }
 
 } // namespace osgRayTrace::engine

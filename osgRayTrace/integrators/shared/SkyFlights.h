@@ -17,7 +17,7 @@ constexpr uint32_t kFlightSeed = 0x5c9b1e77u;
 struct Flight
 {
     Vec3 from, direction;
-    int block; ///< of points
+    int block, lane; ///< of the point
 };
 
 /// Sixteen points.
@@ -26,6 +26,7 @@ struct SeenBlock
     SurfaceLanes surface;
     Vec3Lanes normal;
     LaneMask lanes = 0;
+    int sent[kLanes] = {}; ///< rays that sendAround() has sent from each of the points
 };
 
 struct Seen
@@ -41,13 +42,15 @@ Seen lookAround(const PassContext& context, TileCounts& counts);
 /// Sets the ray from a point of a block, unless it leaves to the other side of the surface.
 void setFlight(const SeenBlock& seen, int i, Vec3 wi, LightLanes& samples);
 
-/// Traces the rays that are set and adds those that meet the sky to the flights. Returns how many
-/// were sent.
-int addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
-               TileCounts& counts, std::vector<Flight>& flights);
+/// Traces the rays that are set and adds those that meet the sky to the flights.
+void addFlights(const PassContext& context, const SeenBlock& seen, int block, LightLanes& samples,
+                TileCounts& counts, std::vector<Flight>& flights);
 
-/// Sends rays of some rounds from all that is seen, as Lambert's surfaces do. Returns their number.
-int sendAround(const PassContext& context, const Seen& seen, int first, int last,
-               TileCounts& counts, std::vector<Flight>& flights);
+/// Sends rays of some rounds from all that is seen, as Lambert's surfaces do.
+void sendAround(const PassContext& context, Seen& seen, int first, int last, TileCounts& counts,
+                std::vector<Flight>& flights);
+
+/// Sets the bounds to those of the points in the blocks' lanes, and the eye.
+void setBounds(Vec3 eye, Seen& seen);
 
 } // namespace osgRayTrace::engine

@@ -3,9 +3,9 @@
 //
 // 1. Points that the camera sees, and points around these, send rays like Lambert's surfaces. Those
 //    that meet the sky are flights.
-// 2. A flight votes in each cell of a grid that it crosses, but all flights of the points of a
-// block
-//    together have one vote. The cell with most votes lies in an opening.
+//    Points that find much of the sky lie outside, or so near an opening that they need no help.
+// 2. A flight votes in each cell of a grid that it crosses, but all flights of the points of one
+//    block together have one vote. The cell with most votes lies in an opening.
 // 3. Planes through places near this cell, across directions in which the scene has surfaces, are
 //    tried. On each of them grows the rectangle around the flights that cross it next to the cell.
 //    The plane that has most flights in the least area is that of the opening.
@@ -28,7 +28,10 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kFirstRounds = 2; ///< rays of a point before it is known whether any is of use
+constexpr int kFirstRounds = 4; ///< rays of a point before it is known whether any is of use
+/// Points of which this share of the rays or more finds the sky may lie outside.
+constexpr float kOutdoors = 0.3f;
+constexpr float kLeastIndoors = 0.25f; ///< share of the points; with fewer, the view is of outdoors
 /// Share of the rays that find the sky without help. In a Cornell box that is open to a sky the
 /// share is higher, and paths need less time for the same error if they know no portals.
 constexpr float kEasyToFind = 0.05f;
@@ -107,7 +110,7 @@ std::vector<Vec3> normalsOf(const Seen& seen)
                 [&](const Axis& axis) { return std::fabs(glm::dot(axis.direction, n)) > 0.99f; });
             if (same != axes.end())
                 ++same->count;
-            else if (axes.size() < 64)
+            else
                 axes.push_back({n, 1});
         }
     std::stable_sort(axes.begin(), axes.end(),
@@ -255,10 +258,9 @@ RectangleLight rectangleOf(const Frame& frame, const Bounds& bounds)
 }
 
 /// Sends rays through a rectangle, and adds those that meet the sky to the flights.
-int sendThrough(const PassContext& context, const Seen& seen, const Opening& opening,
-                TileCounts& counts, std::vector<Flight>& flights)
+void sendThrough(const PassContext& context, const Seen& seen, const Opening& opening,
+                 TileCounts& counts, std::vector<Flight>& flights)
 {
-    int sent = 0;
     for (std::size_t b = 0; b < seen.blocks.size(); ++b)
     {
         const SeenBlock& block = seen.blocks[b];
@@ -274,9 +276,8 @@ int sendThrough(const PassContext& context, const Seen& seen, const Opening& ope
                            laneOf(block.surface.position, i);
             if (glm::dot(d, frame.normal) > 0.0f) setFlight(block, i, glm::normalize(d), samples);
         }
-        sent += addFlights(context, block, static_cast<int>(b), samples, counts, flights);
+        addFlights(context, block, static_cast<int>(b), samples, counts, flights);
     }
-    return sent;
 }
 
 /// Sets the borders of an opening to those of rays through a larger rectangle.
@@ -285,6 +286,7 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
 {
     constexpr int kSteps = 8;
     constexpr float kAsGood = 1.1f;
+    constexpr float kMostlyCrossed = 0.9f;
     constexpr float kRim = 0.03f; // light may cross where no ray from what is seen did
     const Vec2 margin = 0.1f * (opening.bounds.high - opening.bounds.low) + 0.5f * cell;
     Opening wider = opening;
@@ -295,7 +297,7 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
     if (flights.size() < kLeastFlights) return;
     const Vec3 at = opening.frame.at;
     std::array<Opening, 2 * kSteps + 1> planes;
-    float least = kInfinity;
+    int most = 0;
     for (int k = -kSteps; k <= kSteps; ++k)
     {
         Opening& moved = planes[static_cast<std::size_t>(k + kSteps)];
@@ -304,13 +306,21 @@ void refine(const PassContext& context, const Seen& seen, float cell, TileCounts
         for (const Flight& flight : flights)
         {
             const Vec2 crossing = crossingOf(moved.frame, flight);
-            if (crossing.x < kInfinity) moved.bounds.add(crossing);
+            if (!(crossing.x < kInfinity)) continue;
+            moved.bounds.add(crossing);
+            ++moved.count;
         }
-        least = std::min(least, moved.bounds.area());
+        most = std::max(most, moved.count);
     }
+    // Few flights cross a plane that what is seen lies beyond.
+    const auto isCrossed = [most](const Opening& plane)
+    { return static_cast<float>(plane.count) >= kMostlyCrossed * static_cast<float>(most); };
+    float least = kInfinity;
+    for (const Opening& plane : planes)
+        if (isCrossed(plane)) least = std::min(least, plane.bounds.area());
     // The outermost of the planes that are as good: reveals are then on the inner side.
     for (const Opening& plane : planes)
-        if (plane.bounds.area() <= kAsGood * least) opening = plane;
+        if (isCrossed(plane) && plane.bounds.area() <= kAsGood * least) opening = plane;
     const Vec2 rim = kRim * (opening.bounds.high - opening.bounds.low);
     opening.bounds.low -= rim;
     opening.bounds.high += rim;
@@ -324,22 +334,87 @@ bool lightsSpots(const TracedScene& traced)
     if (traits.blended || traits.normalMaps || traits.attenuation || traits.subsurface)
         return false;
     for (std::size_t k = 0; k < traced.scene().materials.size(); ++k)
-        if (traced.materials()[static_cast<uint32_t>(k)].partial) return false;
+    {
+        const Material& m = traced.scene().materials[k];
+        const bool oneWay = m.cullsAllRays || m.alphaTest != AlphaTest::Always;
+        if (oneWay && traced.materials()[static_cast<uint32_t>(k)].partial) return false;
+    }
     return true;
+}
+
+/// A point of which many rays find the sky.
+struct BrightPoint
+{
+    Vec3 position;
+    int sent, found; ///< rays, and those that met the sky
+};
+
+/// Takes points off what is seen if many of their rays find the sky, and takes off their flights:
+/// ground and houses outside would hide the opening.
+void takeBrightPoints(Vec3 eye, Seen& seen, std::vector<Flight>& flights,
+                      std::vector<BrightPoint>& taken)
+{
+    std::vector<std::array<int, kLanes>> found(seen.blocks.size());
+    for (const Flight& flight : flights)
+        ++found[static_cast<std::size_t>(flight.block)][static_cast<std::size_t>(flight.lane)];
+    for (std::size_t b = 0; b < seen.blocks.size(); ++b)
+        for (const int i : lanesIn(seen.blocks[b].lanes))
+        {
+            SeenBlock& block = seen.blocks[b];
+            const int hits = found[b][static_cast<std::size_t>(i)];
+            if (hits == 0 || float(hits) < kOutdoors * float(block.sent[i])) continue;
+            taken.push_back({laneOf(block.surface.position, i), block.sent[i], hits});
+            block.lanes &= ~(1u << i);
+        }
+    const auto isTaken = [&seen](const Flight& flight)
+    { return !((seen.blocks[static_cast<std::size_t>(flight.block)].lanes >> flight.lane) & 1u); };
+    flights.erase(std::remove_if(flights.begin(), flights.end(), isTaken), flights.end());
+    setBounds(eye, seen);
+}
+
+int pointsIn(const Seen& seen)
+{
+    int count = 0;
+    for (const SeenBlock& block : seen.blocks)
+        count += countLanes(block.lanes);
+    return count;
+}
+
+int raysFrom(const Seen& seen)
+{
+    int count = 0;
+    for (const SeenBlock& block : seen.blocks)
+        for (const int i : lanesIn(block.lanes))
+            count += block.sent[i];
+    return count;
+}
+
+bool isOutside(const std::vector<RectangleLight>& rectangles, Vec3 point)
+{
+    return std::any_of(rectangles.begin(), rectangles.end(),
+                       [point](const RectangleLight& r)
+                       { return dot(r.normal, plainOf(point) - r.corner) > 0.0f; });
 }
 
 } // namespace
 
 std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, TileCounts& counts)
 {
-    const Seen seen = lookAround(context, counts);
+    Seen seen = lookAround(context, counts);
+    const auto least = kLeastIndoors * static_cast<float>(pointsIn(seen));
     std::vector<Flight> flights;
-    int sent = sendAround(context, seen, 0, kFirstRounds, counts, flights);
-    const auto isEasy = [&]
-    { return static_cast<float>(flights.size()) > kEasyToFind * static_cast<float>(sent); };
-    if (flights.empty() || isEasy()) return nullptr;
-    sent += sendAround(context, seen, kFirstRounds, kFlightRounds, counts, flights);
-    if (flights.size() < kLeastFlights || isEasy()) return nullptr;
+    std::vector<BrightPoint> bright;
+    const auto isOfUse = [&](std::size_t leastFlights)
+    {
+        takeBrightPoints(context.eye, seen, flights, bright);
+        return flights.size() >= leastFlights && static_cast<float>(pointsIn(seen)) > least &&
+               static_cast<float>(flights.size()) <= kEasyToFind * float(raysFrom(seen));
+    };
+    sendAround(context, seen, 0, kFirstRounds, counts, flights);
+    if (!isOfUse(1)) return nullptr;
+    sendAround(context, seen, kFirstRounds, kFlightRounds, counts, flights);
+    if (!isOfUse(kLeastFlights)) return nullptr;
+    int sent = raysFrom(seen), found = static_cast<int>(flights.size());
 
     const std::vector<Vec3> normals = normalsOf(seen);
     const auto all = static_cast<float>(flights.size());
@@ -353,6 +428,7 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
         Opening opening = openingNear(flights, normals, votes.mostWanted(), votes.cell);
         if (!(opening.worth > 0.0)) break;
         refine(context, seen, votes.cell, counts, opening);
+        if (!(opening.bounds.area() > 0.0f && opening.bounds.area() < kInfinity)) break;
         const auto before = flights.size();
         flights.erase(std::remove_if(flights.begin(), flights.end(),
                                      [&](const Flight& flight)
@@ -365,6 +441,14 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
         rectangles.push_back(rectangleOf(opening.frame, opening.bounds));
     }
     if (static_cast<float>(flights.size()) > (1.0f - kLeastHeld) * all) return nullptr;
+    // Points near the open side of a box are in it, and their rays count.
+    for (const BrightPoint& point : bright)
+    {
+        if (isOutside(rectangles, point.position)) continue;
+        sent += point.sent;
+        found += point.found;
+    }
+    if (static_cast<float>(found) > kEasyToFind * static_cast<float>(sent)) return nullptr;
     return std::make_shared<const SkyPortals>(std::move(rectangles), lightsSpots(*context.traced));
 }
 

@@ -26,6 +26,7 @@ public:
     /// lightsSpots: whether beams from the portals go the same ways as rays to them.
     explicit SkyPortals(std::vector<RectangleLight> rectangles, bool lightsSpots = true);
 
+    /// Returns the rectangles, in engine space; their normals point out of the room.
     const std::vector<RectangleLight>& rectangles() const { return _rectangles; }
 
     /// Sets the sum over the rectangles of the weights by which points choose among them; 0: the
@@ -50,6 +51,7 @@ public:
     };
     Chance chanceOf(Vec3 point, Vec3 direction) const;
 
+    /// Returns whether beams from the portals may light spots: see PathSunSpots.cpp.
     bool lightsSpots() const { return _lightsSpots; }
 
     /// Returns where a beam of the sky from a direction crosses a portal, evenly over the width of
