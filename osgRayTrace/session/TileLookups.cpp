@@ -19,7 +19,8 @@
 //   leaked = sum over pixels with discs of (D - F),
 //
 // is taken from these pixels, from each as much as its share of their light by discs in the first
-// passes. These shares do not depend on the pass, so the tile's light has no bias. The sum has
+// passes. Each colour channel has shares of its own: green light that leaks leaves red pixels
+// alone. These shares do not depend on the pass, so the tile's light has no bias. The sum has
 // little noise, as most photons are in it on both sides.
 #include "osgRayTrace/session/TileLookups.h"
 
@@ -140,7 +141,7 @@ void TileLookups::endChoosing()
     for (std::size_t p = 0; p < kTilePixels; ++p)
         *placeOf(p) = neighbourOf(planes[p]);
     int count = 0;
-    float light = 0.0f;
+    Vec3 light(0.0f);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const Neighbour* const place = placeOf(p);
@@ -154,20 +155,22 @@ void TileLookups::endChoosing()
             _changes[p] = kChoosingPasses;
         }
         count += planes[p].lookup == PixelLookup::Footprint;
-        if (planes[p].lookup == PixelLookup::Compared)
-            light += luminance(_discs[0][p] + _discs[1][p]);
+        if (planes[p].lookup == PixelLookup::Compared) light += _discs[0][p] + _discs[1][p];
     }
-    if (count * kLeakingShare >= kTilePixels && std::isfinite(light)) _discLight = light;
+    _leaks = count * kLeakingShare >= kTilePixels && isFinite(light) && luminance(light) > 0.0f;
+    _discLight = light;
 }
 
 void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 {
     const float passes = repays(pass) ? 1.0f + kEarlierLeak / kRepayingPasses : 1.0f;
+    Vec3 perLight(0.0f); // of a pixel's light by discs; 0 in channels without any
+    for (int c = 0; c < 3; ++c)
+        if (_discLight[c] > 0.0f) perLight[c] = -passes * leaked[c] / _discLight[c];
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         if (planes[p].lookup != PixelLookup::Compared) continue;
-        const float share = luminance(_discs[0][p] + _discs[1][p]) / _discLight;
-        addLight(p, leaked * (-passes * share), rgba);
+        addLight(p, perLight * (_discs[0][p] + _discs[1][p]), rgba);
     }
 }
 

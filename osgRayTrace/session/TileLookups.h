@@ -34,7 +34,7 @@ struct TileLookups
 
     /// Whether pixels with discs are to find their own photons in a pass:
     /// GatheredPhotons::balances.
-    bool balances(int pass) const { return pass >= kChoosingPasses && _discLight > 0.0f; }
+    bool balances(int pass) const { return pass >= kChoosingPasses && _leaks; }
 
     /// Forgets all passes so far, which leave the image: see FirstPasses. Does so only once.
     void restart();
@@ -69,8 +69,9 @@ private:
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};
     bool _hasRestarted = false;
-    /// Luminance of _discs, summed over the pixels that still compare; 0 unless their discs leak.
-    float _discLight = 0.0f;
+    bool _leaks = false; ///< true: the discs of the pixels that still compare leak
+    /// The light of _discs, summed over the pixels that still compare; of use if their discs leak.
+    Vec3 _discLight{0.0f};
 };
 
 } // namespace osgRayTrace::engine

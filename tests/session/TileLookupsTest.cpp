@@ -150,3 +150,40 @@ TEST_CASE("tile lookups: a pixel that sees another plane in the end keeps what i
         CHECK(rgba[kPixel / kLanes].g[kPixel % kLanes] == kFootprint);
     }
 }
+
+TEST_CASE("tile lookups: light that leaks in a colour is taken from pixels of that colour",
+          "[session]")
+{
+    auto lookups = std::make_unique<TileLookups>();
+    constexpr std::size_t kRed = 3, kGreen = 90;
+    for (std::size_t p = 128; p < 192; ++p)
+        lookups->planes[p].lookup = PixelLookup::Footprint; // so discs leak
+    for (const std::size_t p : {kRed, kGreen})
+        lookups->planes[p].lookup = PixelLookup::Compared;
+    for (int pass = 0; pass < 60; ++pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        gathered->atFirstHits[kRed] = Vec3(2.0f, 0.0f, 0.0f);
+        gathered->atFirstHits[kGreen] = Vec3(0.0f, 1.0f, 0.0f);
+        gathered->balances = lookups->balances(pass);
+        REQUIRE(gathered->balances == (pass >= kChoosingPasses));
+        gathered->leaked = Vec3(0.0f, 0.5f, 0.25f); // no pixel has blue light
+        TileRgba rgba = {};
+        lookups->finish(pass, 1, *gathered, rgba);
+        const auto lightOf = [&](std::size_t p)
+        {
+            const RgbaLanes& block = rgba[p / kLanes];
+            const std::size_t lane = p % kLanes;
+            return Vec3(block.r[lane], block.g[lane], block.b[lane]);
+        };
+        CAPTURE(pass);
+        CHECK(lightOf(kRed) == Vec3(0.0f));
+        CHECK(lightOf(kGreen).x == 0.0f);
+        CHECK(lightOf(kGreen).z == 0.0f);
+        if (pass < kChoosingPasses) continue;
+        if (TileLookups::repays(pass))
+            CHECK(lightOf(kGreen).y < -0.5f);
+        else
+            CHECK(lightOf(kGreen).y == Approx(-0.5f));
+    }
+}
