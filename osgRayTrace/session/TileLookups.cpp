@@ -24,6 +24,8 @@
 // little noise, as most photons are in it on both sides.
 #include "osgRayTrace/session/TileLookups.h"
 
+#include "osgRayTrace/photons/RadiusSchedule.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -44,11 +46,6 @@ constexpr float kNeighbourSignificance = 2.0f;
 
 /// Discs leak if one of so many of the tile's pixels has changed over.
 constexpr int kLeakingShare = 16;
-
-/// What leaks in the mean of the first kChoosingPasses over what leaks in the passes that make up
-/// for them. Blur of smooth light goes with the square of the radius, that of pass i with
-/// (i + 1)^(-1/3) for the usual photon-alpha of 2/3 [Knaus11].
-constexpr float kEarlierLeak = 1.85f;
 
 /// Returns how many of the first passes belong to a half.
 int passesOfHalf(int passes, int half)
@@ -101,11 +98,16 @@ void TileLookups::restart()
     _hasRestarted = true;
 }
 
-void TileLookups::finish(int pass, int counted, const GatheredPhotons& gathered, RgbaLanes* rgba)
+void TileLookups::finish(int pass, int counted, float alpha, const GatheredPhotons& gathered,
+                         RgbaLanes* rgba)
 {
     if (pass < kChoosingPasses) _counted[pass] = static_cast<uint8_t>(counted);
     if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
-    if (pass + 1 == kChoosingPasses) endChoosing();
+    if (pass + 1 == kChoosingPasses)
+    {
+        endChoosing();
+        _earlierLeak = earlierLeak(static_cast<double>(alpha));
+    }
     if (gathered.balances) takeLeaked(pass, gathered.leaked, rgba);
 }
 
@@ -161,9 +163,31 @@ void TileLookups::endChoosing()
     _discLight = light;
 }
 
+/// Returns what leaks in the mean of the first kChoosingPasses, by how often they count, over what
+/// leaks in the mean of the passes that make up for them. Blur of smooth light goes with the square
+/// of the radius [Knaus11].
+float TileLookups::earlierLeak(double alpha) const
+{
+    double earlier = 0.0, later = 0.0;
+    int counted = 0, repaying = 0;
+    for (int pass = 0; repays(pass); ++pass)
+    {
+        const double leak = globalRadiusSquared(pass, alpha);
+        if (pass >= kChoosingPasses)
+        {
+            later += leak;
+            ++repaying;
+            continue;
+        }
+        earlier += _counted[pass] * leak;
+        counted += _counted[pass];
+    }
+    return static_cast<float>(earlier / counted / (later / repaying));
+}
+
 void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 {
-    const float passes = repays(pass) ? 1.0f + kEarlierLeak / kRepayingPasses : 1.0f;
+    const float passes = repays(pass) ? 1.0f + _earlierLeak / kRepayingPasses : 1.0f;
     Vec3 perLight(0.0f); // of a pixel's light by discs; 0 in channels without any
     for (int c = 0; c < 3; ++c)
         if (_discLight[c] > 0.0f) perLight[c] = -passes * leaked[c] / _discLight[c];
