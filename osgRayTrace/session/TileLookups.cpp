@@ -203,6 +203,10 @@ void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compared,
                             FootprintBias& discs) const
 {
+    int counted = 0; // of the passes that may choose, which are discs where no pixel has changed
+    for (int pass = 0; pass < std::min(passes, kChoosingPasses); ++pass)
+        counted += _counted[pass];
+    const double chose = std::min(1.0, static_cast<double>(counted) / passes);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const SeenPlane& known = planes[p];
@@ -210,7 +214,6 @@ void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compar
         const bool changed = known.lookup == PixelLookup::Footprint;
         const double sum = static_cast<double>(known.difference);
         const double squares = static_cast<double>(known.squares);
-        const double chose = static_cast<double>(known.undecided + known.compared) / passes;
         compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
         if (!changed) discs.addPixel(known.compared, sum, squares, laterShare);
     }

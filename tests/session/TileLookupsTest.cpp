@@ -222,3 +222,32 @@ TEST_CASE("tile lookups: what leaked in the first passes is that of their radii"
             CHECK(leftOf(alpha, restarts) == Approx(0.0).margin(1e-4));
         }
 }
+
+TEST_CASE("tile lookups: bias of discs counts as often as the passes that have it", "[session]")
+{
+    for (const bool restarts : {false, true})
+    {
+        const auto lookups = std::make_unique<TileLookups>();
+        const int first = restarts ? FirstPasses::kCount : 0;
+        SeenPlane& known = lookups->planes[kPixel];
+        known.lookup = PixelLookup::Compared;
+        known.difference = 6.0f;
+        known.squares = 5.0f;
+        for (int pass = first; pass < kChoosingPasses; ++pass)
+        {
+            const int counted = restarts && pass < 2 * FirstPasses::kCount ? 2 : 1;
+            TileRgba rgba = {};
+            lookups->finish(pass, counted, kAlpha, *gatheredIn(pass), rgba);
+            ++(pass < 8 ? known.undecided : known.compared);
+        }
+        for (const int passes : {kChoosingPasses, 4 * kChoosingPasses})
+        {
+            FootprintBias compared, discs, expected;
+            lookups->addBiases(passes, 0.0, compared, discs);
+            expected.addPixel(8, 6.0, 5.0, double(kChoosingPasses) / passes);
+            CAPTURE(restarts, passes);
+            CHECK(compared.squares == Approx(expected.squares));
+            CHECK(discs.squares == 0.0);
+        }
+    }
+}
