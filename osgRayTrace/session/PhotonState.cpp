@@ -393,7 +393,7 @@ void PhotonState::end(int tile, int pass, const GatheredPhotons& gathered, float
     _differences[static_cast<std::size_t>(tile)].add(pass, gathered.differences);
     const int counted = _opened ? _before.replace(static_cast<std::size_t>(tile), pass, rgba) : 1;
     if (!_lookups.empty())
-        _lookups[static_cast<std::size_t>(tile)]->finish(pass, counted, gathered, rgba);
+        _lookups[static_cast<std::size_t>(tile)]->finish(pass, counted, alpha, gathered, rgba);
     if (!_carried.empty())
         _carried[static_cast<std::size_t>(tile)] += carriedSquare(gathered, rgba);
     if (gathered.pointStride) _points[static_cast<std::size_t>(tile)] = gathered.points;

@@ -267,6 +267,16 @@ SessionState::NextPass SessionState::nextPass() const
     return {learns ? tracedPasses : *wantedPass, learns};
 }
 
+/// Forgets what the first passes have taught, for one of them that was only learnt from and is now
+/// wanted for the film: it would teach what it has taught again. All of it will be the same.
+void SessionState::learnAnew()
+{
+    photons.reset(film.tileCount());
+    photons.choose(filmScene, contextOfPass(0), *workers);
+    tracedPasses = 0;
+    learntPasses.clear();
+}
+
 /// Records that all tiles have had a pass. passes: those that the film has now.
 void SessionState::finishPass(const PassContext& context, const NextPass& pass, PassSet&& passes)
 {
@@ -329,6 +339,7 @@ RenderProgress SessionState::run(const StopRule& rule,
     {
         if (!wantedPass || !rule.nextPass) wantedPass = askForPass(rule);
         if (!wantedPass) break;
+        if (*wantedPass < std::min(tracedPasses, photons.sharedPasses())) learnAnew();
         const NextPass next = nextPass();
         const int pass = next.number;
         if (progress.newTiles >= rule.newTiles) break;

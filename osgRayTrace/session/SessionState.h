@@ -41,6 +41,7 @@ struct SessionState
     bool beginView();
     std::optional<int> askForPass(const StopRule& rule) const;
     NextPass nextPass() const;
+    void learnAnew();
     TileCounts renderTile(const PassContext& context, const Integrator& integrator,
                           const NextPass& pass, int tile);
     bool renderPass(const PassContext& context, const Integrator& integrator, const NextPass& pass,

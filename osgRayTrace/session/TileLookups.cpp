@@ -19,9 +19,12 @@
 //   leaked = sum over pixels with discs of (D - F),
 //
 // is taken from these pixels, from each as much as its share of their light by discs in the first
-// passes. These shares do not depend on the pass, so the tile's light has no bias. The sum has
+// passes. Each colour channel has shares of its own: green light that leaks leaves red pixels
+// alone. These shares do not depend on the pass, so the tile's light has no bias. The sum has
 // little noise, as most photons are in it on both sides.
 #include "osgRayTrace/session/TileLookups.h"
+
+#include "osgRayTrace/photons/RadiusSchedule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +46,6 @@ constexpr float kNeighbourSignificance = 2.0f;
 
 /// Discs leak if one of so many of the tile's pixels has changed over.
 constexpr int kLeakingShare = 16;
-
-/// What leaks in the mean of the first kChoosingPasses over what leaks in the passes that make up
-/// for them. Blur of smooth light goes with the square of the radius, that of pass i with
-/// (i + 1)^(-1/3) for the usual photon-alpha of 2/3 [Knaus11].
-constexpr float kEarlierLeak = 1.85f;
 
 /// Returns how many of the first passes belong to a half.
 int passesOfHalf(int passes, int half)
@@ -100,11 +98,16 @@ void TileLookups::restart()
     _hasRestarted = true;
 }
 
-void TileLookups::finish(int pass, int counted, const GatheredPhotons& gathered, RgbaLanes* rgba)
+void TileLookups::finish(int pass, int counted, float alpha, const GatheredPhotons& gathered,
+                         RgbaLanes* rgba)
 {
     if (pass < kChoosingPasses) _counted[pass] = static_cast<uint8_t>(counted);
     if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
-    if (pass + 1 == kChoosingPasses) endChoosing();
+    if (pass + 1 == kChoosingPasses)
+    {
+        endChoosing();
+        _earlierLeak = earlierLeak(static_cast<double>(alpha));
+    }
     if (gathered.balances) takeLeaked(pass, gathered.leaked, rgba);
 }
 
@@ -140,7 +143,7 @@ void TileLookups::endChoosing()
     for (std::size_t p = 0; p < kTilePixels; ++p)
         *placeOf(p) = neighbourOf(planes[p]);
     int count = 0;
-    float light = 0.0f;
+    Vec3 light(0.0f);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const Neighbour* const place = placeOf(p);
@@ -154,20 +157,44 @@ void TileLookups::endChoosing()
             _changes[p] = kChoosingPasses;
         }
         count += planes[p].lookup == PixelLookup::Footprint;
-        if (planes[p].lookup == PixelLookup::Compared)
-            light += luminance(_discs[0][p] + _discs[1][p]);
+        if (planes[p].lookup == PixelLookup::Compared) light += _discs[0][p] + _discs[1][p];
     }
-    if (count * kLeakingShare >= kTilePixels && std::isfinite(light)) _discLight = light;
+    _leaks = count * kLeakingShare >= kTilePixels && isFinite(light) && luminance(light) > 0.0f;
+    _discLight = light;
+}
+
+/// Returns what leaks in the mean of the first kChoosingPasses, by how often they count, over what
+/// leaks in the mean of the passes that make up for them. Blur of smooth light goes with the square
+/// of the radius [Knaus11].
+float TileLookups::earlierLeak(double alpha) const
+{
+    double earlier = 0.0, later = 0.0;
+    int counted = 0, repaying = 0;
+    for (int pass = 0; repays(pass); ++pass)
+    {
+        const double leak = globalRadiusSquared(pass, alpha);
+        if (pass >= kChoosingPasses)
+        {
+            later += leak;
+            ++repaying;
+            continue;
+        }
+        earlier += _counted[pass] * leak;
+        counted += _counted[pass];
+    }
+    return static_cast<float>(earlier / counted / (later / repaying));
 }
 
 void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 {
-    const float passes = repays(pass) ? 1.0f + kEarlierLeak / kRepayingPasses : 1.0f;
+    const float passes = repays(pass) ? 1.0f + _earlierLeak / kRepayingPasses : 1.0f;
+    Vec3 perLight(0.0f); // of a pixel's light by discs; 0 in channels without any
+    for (int c = 0; c < 3; ++c)
+        if (_discLight[c] > 0.0f) perLight[c] = -passes * leaked[c] / _discLight[c];
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         if (planes[p].lookup != PixelLookup::Compared) continue;
-        const float share = luminance(_discs[0][p] + _discs[1][p]) / _discLight;
-        addLight(p, leaked * (-passes * share), rgba);
+        addLight(p, perLight * (_discs[0][p] + _discs[1][p]), rgba);
     }
 }
 
@@ -176,6 +203,10 @@ void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
 void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compared,
                             FootprintBias& discs) const
 {
+    int counted = 0; // of the passes that may choose, which are discs where no pixel has changed
+    for (int pass = 0; pass < std::min(passes, kChoosingPasses); ++pass)
+        counted += _counted[pass];
+    const double chose = std::min(1.0, static_cast<double>(counted) / passes);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const SeenPlane& known = planes[p];
@@ -183,7 +214,6 @@ void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compar
         const bool changed = known.lookup == PixelLookup::Footprint;
         const double sum = static_cast<double>(known.difference);
         const double squares = static_cast<double>(known.squares);
-        const double chose = static_cast<double>(known.undecided + known.compared) / passes;
         compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
         if (!changed) discs.addPixel(known.compared, sum, squares, laterShare);
     }

@@ -34,15 +34,16 @@ struct TileLookups
 
     /// Whether pixels with discs are to find their own photons in a pass:
     /// GatheredPhotons::balances.
-    bool balances(int pass) const { return pass >= kChoosingPasses && _discLight > 0.0f; }
+    bool balances(int pass) const { return pass >= kChoosingPasses && _leaks; }
 
     /// Forgets all passes so far, which leave the image: see FirstPasses. Does so only once.
     void restart();
 
     /// Takes what a pass has looked up in the tile, and corrects its light. Passes below
     /// kChoosingPasses come in their order, before all others. counted: how often the light of the
-    /// pass counts; rgba holds it so many times.
-    void finish(int pass, int counted, const GatheredPhotons& gathered, RgbaLanes* rgba);
+    /// pass counts; rgba holds it so many times. alpha: of the radius schedule.
+    void finish(int pass, int counted, float alpha, const GatheredPhotons& gathered,
+                RgbaLanes* rgba);
 
     /// Adds what the pixels know of the bias of their discs in the mean of so many passes from the
     /// first one on: to compared the bias of the passes that may choose, to discs that of the later
@@ -58,6 +59,7 @@ private:
     int countedOf(std::size_t pixel, int half) const;
     void forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba);
     void endChoosing();
+    float earlierLeak(double alpha) const;
     void takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const;
 
     /// The light that photons have added at first hits in the even and in the odd passes that
@@ -69,8 +71,10 @@ private:
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};
     bool _hasRestarted = false;
-    /// Luminance of _discs, summed over the pixels that still compare; 0 unless their discs leak.
-    float _discLight = 0.0f;
+    bool _leaks = false; ///< true: the discs of the pixels that still compare leak
+    /// The light of _discs, summed over the pixels that still compare; of use if their discs leak.
+    Vec3 _discLight{0.0f};
+    float _earlierLeak = 0.0f; ///< earlierLeak(), once all passes have chosen
 };
 
 } // namespace osgRayTrace::engine

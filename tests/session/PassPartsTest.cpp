@@ -127,6 +127,26 @@ TEST_CASE("parts: an image that goes on from its sums is that without interrupti
     }
 }
 
+TEST_CASE("parts: a pass that was only learnt from is made for the film later, and is the same",
+          "[session][parts]")
+{
+    const auto madeInOrder = [](std::vector<int> order)
+    {
+        const auto session = newSession(IntegratorKind::Sppm, 2);
+        std::size_t next = 0;
+        StopRule rule;
+        rule.nextPass = [&] { return next < order.size() ? order[next++] : -1; };
+        CHECK(session->render(rule).status.ok());
+        const std::optional<PassSums> sums = session->passSums();
+        REQUIRE(sums);
+        CHECK(sums->passes.count() == int(order.size()));
+        return *sums;
+    };
+    const PassSums sweep = madeInOrder({3, 5, 20});
+    for (const auto& order : {std::vector<int>{20, 5, 3}, {5, 20, 3}, {3, 20, 5}})
+        CHECK(areEqual(madeInOrder(order), sweep));
+}
+
 TEST_CASE("parts: a cancelled pass has no sums until it is whole", "[session][parts]")
 {
     for (const Case& c : kCases)

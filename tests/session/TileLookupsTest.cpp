@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
 
+#include "osgRayTrace/photons/RadiusSchedule.h"
 #include "osgRayTrace/session/FirstPasses.h"
 #include "osgRayTrace/session/TileLookups.h"
 
@@ -15,6 +16,7 @@ namespace
 
 constexpr float kDisc = 3.0f, kFootprint = 1.0f; ///< light of the look-ups
 constexpr std::size_t kPixel = 37;
+constexpr float kAlpha = 2.0f / 3.0f;
 
 std::unique_ptr<GatheredPhotons> gatheredIn(int pass)
 {
@@ -36,7 +38,7 @@ struct Pixel
         if (pass + 1 >= change) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
         TileRgba rgba = {};
         rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
-        lookups->finish(pass, 1, *gathered, rgba);
+        lookups->finish(pass, 1, kAlpha, *gathered, rgba);
         sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
     }
 
@@ -99,7 +101,7 @@ TEST_CASE("tile lookups: nothing is left of passes that others replace, nor of w
                 TileRgba rgba = {};
                 rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
                 const int counted = first.replace(0, pass, rgba);
-                lookups->finish(pass, counted, *gathered, rgba);
+                lookups->finish(pass, counted, kAlpha, *gathered, rgba);
                 if (isFirst) first.add(0, pass, rgba);
                 sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
             }
@@ -125,7 +127,7 @@ TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", 
                 pixel.lookups->planes[kPixel].lookup = PixelLookup::Footprint;
             TileRgba rgba = {};
             rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
-            pixel.lookups->finish(pass, 1, *gathered, rgba);
+            pixel.lookups->finish(pass, 1, kAlpha, *gathered, rgba);
             sums[pass & 1] += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
             CHECK(sums[pass & 1] >= 0.0);
         }
@@ -146,7 +148,106 @@ TEST_CASE("tile lookups: a pixel that sees another plane in the end keeps what i
         gathered->atFirstHits[kPixel] = Vec3(kFootprint);
         TileRgba rgba = {};
         rgba[kPixel / kLanes].g[kPixel % kLanes] = kFootprint;
-        pixel.lookups->finish(pass, 1, *gathered, rgba);
+        pixel.lookups->finish(pass, 1, kAlpha, *gathered, rgba);
         CHECK(rgba[kPixel / kLanes].g[kPixel % kLanes] == kFootprint);
+    }
+}
+
+TEST_CASE("tile lookups: light that leaks in a colour is taken from pixels of that colour",
+          "[session]")
+{
+    auto lookups = std::make_unique<TileLookups>();
+    constexpr std::size_t kRed = 3, kGreen = 90;
+    for (std::size_t p = 128; p < 192; ++p)
+        lookups->planes[p].lookup = PixelLookup::Footprint; // so discs leak
+    for (const std::size_t p : {kRed, kGreen})
+        lookups->planes[p].lookup = PixelLookup::Compared;
+    for (int pass = 0; pass < 60; ++pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        gathered->atFirstHits[kRed] = Vec3(2.0f, 0.0f, 0.0f);
+        gathered->atFirstHits[kGreen] = Vec3(0.0f, 1.0f, 0.0f);
+        gathered->balances = lookups->balances(pass);
+        REQUIRE(gathered->balances == (pass >= kChoosingPasses));
+        gathered->leaked = Vec3(0.0f, 0.5f, 0.25f); // no pixel has blue light
+        TileRgba rgba = {};
+        lookups->finish(pass, 1, kAlpha, *gathered, rgba);
+        const auto lightOf = [&](std::size_t p)
+        {
+            const RgbaLanes& block = rgba[p / kLanes];
+            const std::size_t lane = p % kLanes;
+            return Vec3(block.r[lane], block.g[lane], block.b[lane]);
+        };
+        CAPTURE(pass);
+        CHECK(lightOf(kRed) == Vec3(0.0f));
+        CHECK(lightOf(kGreen).x == 0.0f);
+        CHECK(lightOf(kGreen).z == 0.0f);
+        if (pass < kChoosingPasses) continue;
+        if (TileLookups::repays(pass))
+            CHECK(lightOf(kGreen).y < -0.5f);
+        else
+            CHECK(lightOf(kGreen).y == Approx(-0.5f));
+    }
+}
+
+TEST_CASE("tile lookups: what leaked in the first passes is that of their radii", "[session]")
+{
+    // Discs leak with the square of their radii, in passes that count as often as `counted` says.
+    const auto leftOf = [](float alpha, bool restarts)
+    {
+        const auto lookups = std::make_unique<TileLookups>();
+        for (std::size_t p = 128; p < 192; ++p)
+            lookups->planes[p].lookup = PixelLookup::Footprint; // so discs leak
+        lookups->planes[kPixel].lookup = PixelLookup::Compared;
+        double sum = 0.0;
+        for (int pass = restarts ? FirstPasses::kCount : 0; pass < 48; ++pass)
+        {
+            const int counted = restarts && pass < 2 * FirstPasses::kCount ? 2 : 1;
+            const auto gathered = gatheredIn(pass);
+            const auto leak = float(globalRadiusSquared(pass, double(alpha)));
+            gathered->atFirstHits[kPixel] = Vec3(leak);
+            gathered->balances = lookups->balances(pass);
+            gathered->leaked = Vec3(leak);
+            TileRgba rgba = {};
+            rgba[kPixel / kLanes].g[kPixel % kLanes] = leak * float(counted);
+            lookups->finish(pass, counted, alpha, *gathered, rgba);
+            sum += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+        }
+        return sum;
+    };
+    for (const float alpha : {0.4f, kAlpha, 1.0f})
+        for (const bool restarts : {false, true})
+        {
+            CAPTURE(alpha, restarts);
+            CHECK(leftOf(alpha, restarts) == Approx(0.0).margin(1e-4));
+        }
+}
+
+TEST_CASE("tile lookups: bias of discs counts as often as the passes that have it", "[session]")
+{
+    for (const bool restarts : {false, true})
+    {
+        const auto lookups = std::make_unique<TileLookups>();
+        const int first = restarts ? FirstPasses::kCount : 0;
+        SeenPlane& known = lookups->planes[kPixel];
+        known.lookup = PixelLookup::Compared;
+        known.difference = 6.0f;
+        known.squares = 5.0f;
+        for (int pass = first; pass < kChoosingPasses; ++pass)
+        {
+            const int counted = restarts && pass < 2 * FirstPasses::kCount ? 2 : 1;
+            TileRgba rgba = {};
+            lookups->finish(pass, counted, kAlpha, *gatheredIn(pass), rgba);
+            ++(pass < 8 ? known.undecided : known.compared);
+        }
+        for (const int passes : {kChoosingPasses, 4 * kChoosingPasses})
+        {
+            FootprintBias compared, discs, expected;
+            lookups->addBiases(passes, 0.0, compared, discs);
+            expected.addPixel(8, 6.0, 5.0, double(kChoosingPasses) / passes);
+            CAPTURE(restarts, passes);
+            CHECK(compared.squares == Approx(expected.squares));
+            CHECK(discs.squares == 0.0);
+        }
     }
 }
