@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A pixel that changes over to its footprint at pass c has c_h passes of each half h of the film by
-// discs, whose light is D_h. Each of the next kRepayingPasses c_h = n passes of that half, whose
-// footprints have the light F, adds
+// discs, whose light is D_h. From pass kChoosingPasses on, each of the next kRepayingPasses c_h = n
+// passes of that half, whose footprints have the light F, adds
 //
 //   F + (c_h F - D_h) / n
 //
@@ -117,15 +117,16 @@ void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLan
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const bool takesFootprint = planes[p].lookup == PixelLookup::Footprint;
-        if (_changes[p] == 0 && pass < kChoosingPasses)
+        if (pass < kChoosingPasses)
         {
+            if (_changes[p] != 0) continue;
             _discs[half][p] += gathered.atFirstHits[p] * static_cast<float>(_counted[pass]);
             if (takesFootprint) _changes[p] = static_cast<uint8_t>(pass + 1);
             continue;
         }
-        if (!takesFootprint) continue;
+        if (!takesFootprint || !_forgets[p]) continue;
         const int wrong = countedOf(p, half);
-        if (pass / 2 >= passesOfHalf(_changes[p], half) + wrong * kRepayingPasses) continue;
+        if (pass / 2 >= kChoosingPasses / 2 + wrong * kRepayingPasses) continue;
         const Vec3 disc = _discs[half][p] * (kRoundedDown / static_cast<float>(wrong));
         addLight(p, (gathered.atFirstHits[p] - disc) * (1.0f / kRepayingPasses), rgba);
     }
@@ -151,7 +152,8 @@ void TileLookups::endChoosing()
         for (const Neighbour* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
             for (int k = -1; k <= 1; ++k)
                 sum.add(row[k]);
-        if (planes[p].lookup == PixelLookup::Compared && sum.areWrong())
+        _forgets[p] = sum.areWrong();
+        if (planes[p].lookup == PixelLookup::Compared && _forgets[p])
         {
             planes[p].lookup = PixelLookup::Footprint;
             _changes[p] = kChoosingPasses;
@@ -235,7 +237,8 @@ double TileLookups::discShare(std::size_t pixel, int passes) const
     for (int half = 0; half < 2; ++half)
     {
         const int wrong = countedOf(pixel, half);
-        const int repaid = passesOfHalf(passes, half) - passesOfHalf(_changes[pixel], half);
+        const int later = std::max(0, passesOfHalf(passes, half) - kChoosingPasses / 2);
+        const int repaid = _forgets[pixel] ? later : 0;
         left += std::max(0.0, wrong - static_cast<double>(repaid) / kRepayingPasses);
     }
     return std::min(1.0, left / passes);

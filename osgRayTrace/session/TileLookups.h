@@ -67,6 +67,9 @@ private:
     Vec3 _discs[2][kTilePixels] = {};
     /// The number of the first pass that takes the photons of the footprint; 0: there is none yet.
     uint8_t _changes[kTilePixels] = {};
+    /// Whether the light of the pixel's discs leaves the image: a pixel that has changed over alone
+    /// among its neighbours may have done so by chance, and would have more noise without it.
+    bool _forgets[kTilePixels] = {};
     /// By pass that may choose: how often it counts; 0 before it is made, and for passes that leave
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};

@@ -25,6 +25,17 @@ std::unique_ptr<GatheredPhotons> gatheredIn(int pass)
     return gathered;
 }
 
+/// Lets the pixel change over, and its neighbours with it, whose discs are clearly wrong.
+void changeOver(TileLookups& lookups)
+{
+    for (const std::size_t pixel : {kPixel - 1, kPixel, kPixel + 1}) // they are side by side
+    {
+        lookups.planes[pixel].lookup = PixelLookup::Footprint;
+        lookups.planes[pixel].difference = 10.0f;
+        lookups.planes[pixel].squares = 1.0f;
+    }
+}
+
 /// Sums up passes of a pixel that changes over at some pass, half by half.
 struct Pixel
 {
@@ -35,7 +46,7 @@ struct Pixel
         const auto gathered = gatheredIn(pass);
         const float light = pass < change ? discLight : kFootprint;
         gathered->atFirstHits[kPixel] = Vec3(light);
-        if (pass + 1 >= change) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+        if (pass + 1 >= change) changeOver(*lookups);
         TileRgba rgba = {};
         rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
         lookups->finish(pass, 1, kAlpha, *gathered, rgba);
@@ -97,7 +108,7 @@ TEST_CASE("tile lookups: nothing is left of passes that others replace, nor of w
                 const float disc = isFirst ? 100.0f * float(1 + pass % 3) : kDisc + float(pass % 3);
                 const float light = pass < changes ? disc : kFootprint;
                 gathered->atFirstHits[kPixel] = Vec3(light);
-                if (pass + 1 >= changes) lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+                if (pass + 1 >= changes) changeOver(*lookups);
                 TileRgba rgba = {};
                 rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
                 const int counted = first.replace(0, pass, rgba);
@@ -112,6 +123,29 @@ TEST_CASE("tile lookups: nothing is left of passes that others replace, nor of w
         }
 }
 
+TEST_CASE("tile lookups: a pixel that changes over alone keeps the light of its discs", "[session]")
+{
+    TileLookups lookups;
+    double sum = 0.0;
+    for (int pass = 0; pass < 64; ++pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        const float light = pass < 5 ? kDisc : kFootprint;
+        gathered->atFirstHits[kPixel] = Vec3(light);
+        if (pass == 4)
+        {
+            changeOver(lookups);
+            lookups.planes[kPixel + 1] = lookups.planes[kPixel - 1] = SeenPlane();
+        }
+        TileRgba rgba = {};
+        rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
+        lookups.finish(pass, 1, kAlpha, *gathered, rgba);
+        sum += double(rgba[kPixel / kLanes].g[kPixel % kLanes]);
+    }
+    CHECK(sum == Approx(5.0 * kDisc + 59.0 * kFootprint).epsilon(1e-5));
+    CHECK(lookups.discShare(kPixel, 64) == Approx(5.0 / 64.0));
+}
+
 TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", "[session]")
 {
     for (const float disc : {1e-6f, 0.3f, 1e6f})
@@ -123,8 +157,7 @@ TEST_CASE("tile lookups: a pixel whose footprint is dark is never below black", 
             const auto gathered = gatheredIn(pass);
             const float light = pass < pixel.change ? disc * float(1 + pass % 3) : 0.0f;
             gathered->atFirstHits[kPixel] = Vec3(light);
-            if (pass + 1 >= pixel.change)
-                pixel.lookups->planes[kPixel].lookup = PixelLookup::Footprint;
+            if (pass + 1 >= pixel.change) changeOver(*pixel.lookups);
             TileRgba rgba = {};
             rgba[kPixel / kLanes].g[kPixel % kLanes] = light;
             pixel.lookups->finish(pass, 1, kAlpha, *gathered, rgba);
