@@ -50,6 +50,7 @@ public:
         swap(other);
         return *this;
     }
+    /// Exchanges the values of the two arrays; none is copied.
     void swap(UnclearedArray& other) noexcept
     {
         std::swap(_values, other._values);

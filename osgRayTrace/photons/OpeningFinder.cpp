@@ -176,11 +176,9 @@ void weighOpenings(const std::vector<UsefulFlight>& entering,
         opening.weight /= best;
 }
 
-} // namespace
-
 /// Returns the share of the power of all flights that entering ones have.
-static double enteringShare(const std::vector<UsefulFlight>& entering,
-                            const std::vector<PhotonFlight>& flights)
+double enteringShare(const std::vector<UsefulFlight>& entering,
+                     const std::vector<PhotonFlight>& flights)
 {
     double sum = 0.0, all = 0.0;
     for (const UsefulFlight& useful : entering)
@@ -189,6 +187,8 @@ static double enteringShare(const std::vector<UsefulFlight>& entering,
         all += static_cast<double>(flight.power);
     return sum / all;
 }
+
+} // namespace
 
 double seenShare(const Sphere& scene, const std::vector<PhotonFlight>& flights,
                  const std::vector<SeenPoint>& seen)

@@ -26,7 +26,9 @@ public:
     /// Makes room for tiles; 0: nothing is kept.
     void reset(std::size_t tiles);
 
+    /// Returns whether nothing is kept: there is no room for tiles.
     bool empty() const { return _tiles.empty(); }
+    /// Returns how much memory the tiles take [bytes].
     std::size_t bytes() const { return _tiles.size() * sizeof(Tile); }
 
     /// Adds the light of a tile in one of the first passes; of a pass that is made again only once.

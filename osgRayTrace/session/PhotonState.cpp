@@ -248,7 +248,8 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
         std::max(_floor, _pointRadius * static_cast<float>(pointRadiusScale(pass)));
     context.projection = &_projection;
     _opened = _pass->hasOpenings;
-    if (pass >= PhotonPasses::kFirst && !_opened) _before.reset(0);
+    if (pass >= PhotonPasses::kFirst && (!_opened || pass >= 2 * FirstPasses::kCount))
+        _before.reset(0);
     _stored |= _pass->map.size() > 0 || !_pass->volume.isEmpty();
     _preparedPass = pass;
 }

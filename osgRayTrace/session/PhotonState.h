@@ -106,7 +106,7 @@ public:
     std::size_t guideBins() const { return _seen.empty() ? 0 : _seenSquares.size(); }
     /// Returns the bytes of photon maps, for all views.
     std::size_t keptBytes() const { return _passes->bytes(); }
-    std::size_t viewBytes() const; ///< bytes of hit points, radii and statistics of the pixels
+    std::size_t viewBytes() const; ///< bytes of hit points, radii, look-ups and first passes
 
 private:
     void chooseRadii(const PhotonScene& scene, const PassContext& context, const Workers& workers);

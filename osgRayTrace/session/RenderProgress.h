@@ -117,7 +117,7 @@ struct RenderProgress
     uint64_t storedPoints = 0;                ///< photons of the last pass at points within media
     float beamRadius = 0.0f;                  ///< of the last pass [length]; 0 without beams
     uint64_t photonBytes = 0;                 ///< memory of photons, which all views share
-    /// Memory that this view keeps for photons: hit points, radii and statistics of pixels.
+    /// Memory that this view keeps for photons: hit points, radii, look-ups and first passes.
     uint64_t hitPointBytes = 0;
 };
 

@@ -25,8 +25,9 @@ constexpr int kRepayingPasses = 2;
 /// pixels that have all of that light themselves. All corrections of a pass depend on the first
 /// kChoosingPasses and on that pass alone, so passes may be made in any order and by several
 /// machines. One thread at a time.
-struct TileLookups
+class TileLookups
 {
+public:
     SeenPlane planes[kTilePixels];
 
     /// Whether some pass from pass number `pass` on may still make up for discs that were wrong.
