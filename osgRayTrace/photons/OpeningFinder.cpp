@@ -31,7 +31,7 @@ constexpr double kFirstChildren = 1.0, kFineChildren = 4.0;
 
 /// Flights from which openings are found: at least, and at most for the small ones, as the time and
 /// the memory of the search go with their number.
-constexpr std::size_t kLeastFlights = 16, kMostFlights = 4096;
+constexpr std::size_t kLeastFlights = 16, kMostFlights = 16384;
 
 /// Openings are small if no more than these shares of all flights go through them, and of the power
 /// of all flights is that of those that enter.

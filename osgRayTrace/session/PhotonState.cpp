@@ -186,6 +186,7 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     const PhotonScene scene = photonScene(traced, context);
     if (scene.options.use == PhotonUse::None || _largest > 0.0f) return;
     chooseRadii(scene, context, workers);
+    _causticsAlone = scene.options.use == PhotonUse::Caustics;
     _local = context.options.radiusSchedule == RadiusSchedule::Local &&
              scene.options.use == PhotonUse::Indirect;
     if (_local)
@@ -369,7 +370,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     if (!_lookups.empty())
     {
         std::unique_ptr<TileLookups>& lookups = _lookups[static_cast<std::size_t>(tile)];
-        if (!lookups) lookups = std::make_unique<TileLookups>();
+        if (!lookups) lookups = std::make_unique<TileLookups>(_causticsAlone);
         const bool isReplaced = _opened && _before.areComplete(static_cast<std::size_t>(tile));
         if (isReplaced && pass == FirstPasses::kCount) lookups->restart();
         gathered.planes = lookups->planes;

@@ -136,6 +136,7 @@ private:
     /// True: the photons are for caustics, but nothing makes caustics, so all paths are traced from
     /// the eye.
     bool _idle = false;
+    bool _causticsAlone = false;  ///< true: photons bring caustics only
     bool _optional = false;       ///< true: photons end if they carry next to nothing
     bool _ended = false;          ///< true: paths find all light from pass PhotonPasses::kFirst on
     std::vector<double> _carried; ///< by tile: carriedSquare; empty unless photons may end

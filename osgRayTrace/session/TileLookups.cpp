@@ -94,7 +94,7 @@ void addLight(std::size_t pixel, Vec3 light, RgbaLanes* rgba)
 void TileLookups::restart()
 {
     if (_hasRestarted) return;
-    *this = TileLookups();
+    *this = TileLookups(_forgetsAlone);
     _hasRestarted = true;
 }
 
@@ -152,8 +152,8 @@ void TileLookups::endChoosing()
         for (const Neighbour* row : {place - (kTileSize + 2), place, place + (kTileSize + 2)})
             for (int k = -1; k <= 1; ++k)
                 sum.add(row[k]);
-        _forgets[p] = sum.areWrong();
-        if (planes[p].lookup == PixelLookup::Compared && _forgets[p])
+        _forgets[p] = _forgetsAlone || sum.areWrong();
+        if (planes[p].lookup == PixelLookup::Compared && sum.areWrong())
         {
             planes[p].lookup = PixelLookup::Footprint;
             _changes[p] = kChoosingPasses;

@@ -28,6 +28,9 @@ constexpr int kRepayingPasses = 2;
 class TileLookups
 {
 public:
+    /// causticsAlone: photons bring caustics only. Then single pixels forget their discs, too.
+    explicit TileLookups(bool causticsAlone = false) : _forgetsAlone(causticsAlone) {}
+
     SeenPlane planes[kTilePixels];
 
     /// Whether some pass from pass number `pass` on may still make up for discs that were wrong.
@@ -68,9 +71,11 @@ private:
     Vec3 _discs[2][kTilePixels] = {};
     /// The number of the first pass that takes the photons of the footprint; 0: there is none yet.
     uint8_t _changes[kTilePixels] = {};
-    /// Whether the light of the pixel's discs leaves the image: a pixel that has changed over alone
-    /// among its neighbours may have done so by chance, and would have more noise without it.
+    /// Whether the light of the pixel's discs leaves the image. Where photons bring all light, a
+    /// pixel that has changed over alone among its neighbours may have done so by chance, and would
+    /// have more noise without it.
     bool _forgets[kTilePixels] = {};
+    bool _forgetsAlone;
     /// By pass that may choose: how often it counts; 0 before it is made, and for passes that leave
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};
