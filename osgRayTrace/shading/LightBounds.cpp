@@ -19,11 +19,11 @@ LightNode nodeOf(const LightBounds& bounds, uint32_t next)
             radius,
             {b.axis.x, b.axis.y, b.axis.z},
             b.cosCone,
-            b.cosEmission,
             packedExtents(b, radius),
             b.intensity,
-            {b.falloff.x, b.falloff.y, b.falloff.z},
             next,
+            b.cosEmission,
+            {b.falloff.x, b.falloff.y, b.falloff.z},
             (b.range + radius) * kReachSlack};
 }
 

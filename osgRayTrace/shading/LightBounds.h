@@ -24,18 +24,20 @@ struct LightBounds
 /// Returns bounds of the lights of both.
 LightBounds joined(const LightBounds& a, const LightBounds& b);
 
-/// LightNode holds LightBounds as columns of words, which sixteen lanes gather.
+/// LightNode holds LightBounds as words, which sixteen lanes read four by four. Nodes of areas are
+/// told by the first twelve.
 struct LightNode
 {
     float centre[3];
     float radius;
     float axis[3];
-    float cosCone, cosEmission;
+    float cosCone;
     uint32_t extents; ///< half extents of the box: see packedExtents()
     float intensity;  ///< negative if some of the lights shine to both sides
+    uint32_t next;    ///< the pair of children, or kLeaf and the emitter
+    float cosEmission;
     float falloff[3];
-    uint32_t next; ///< the pair of children, or kLeaf and the emitter
-    float reach;   ///< from the centre [length]: no light comes farther
+    float reach; ///< from the centre [length]: no light comes farther
 };
 static_assert(sizeof(LightNode) == 64, "a node is a cache line");
 

@@ -30,6 +30,7 @@
 // lights the importance is 0.
 #pragma once
 
+#include "osgRayTrace/base/QuickCompare.h"
 #include "osgRayTrace/shading/LightBounds.h"
 
 namespace osgRayTrace::engine
@@ -56,12 +57,12 @@ OSGRAYTRACE_INLINE float extentAlong(PlainVec3 half, PlainVec3 v)
 /// within are taken to be some way off the lights: half of the least half extent, or more.
 OSGRAYTRACE_INLINE float clearance2(PlainVec3 d, PlainVec3 half, float radius)
 {
-    const PlainVec3 beyond{largest(std::fabs(d.x) - half.x, 0.0f),
-                           largest(std::fabs(d.y) - half.y, 0.0f),
-                           largest(std::fabs(d.z) - half.z, 0.0f)};
-    const float thin = least(half.x, least(half.y, half.z));
+    const PlainVec3 beyond{atLeast(std::fabs(d.x) - half.x, 0.0f),
+                           atLeast(std::fabs(d.y) - half.y, 0.0f),
+                           atLeast(std::fabs(d.z) - half.z, 0.0f)};
+    const float thin = atMost(half.x, atMost(half.y, half.z));
     const float within = 0.5f * (thin * thin) + 0.003f * (radius * radius);
-    return largest(dot(beyond, beyond) + within, 1e-30f);
+    return atLeast(dot(beyond, beyond) + within, 1e-30f);
 }
 
 /// Cosines below this bound count as the bound: at grazing angles rounding decides on the sign.
@@ -84,9 +85,9 @@ enum class NodeLights
 /// Returns C times B: see the top. mean: s or g. extent: S or G. perDistance: 1 / m.
 OSGRAYTRACE_INLINE float cosines(float mean, float extent, float perDistance)
 {
-    const float average = 0.5f * (mean + largest(mean, extent)) * perDistance;
-    const float bound = least((mean + extent) * perDistance, 1.0f);
-    return largest(average, kGrazing) * largest(bound, kGrazing);
+    const float average = 0.5f * (mean + atLeast(mean, extent)) * perDistance;
+    const float bound = atMost((mean + extent) * perDistance, 1.0f);
+    return atLeast(average, kGrazing) * atLeast(bound, kGrazing);
 }
 
 /// Returns whether lights of a node may shine as far from their normals as a point is, whose
@@ -113,18 +114,18 @@ OSGRAYTRACE_INLINE float importance(const LightNode& node, PlainVec3 p, PlainVec
     const PlainVec3 axis{node.axis[0], node.axis[1], node.axis[2]};
     const PlainVec3 half = halfExtents(node);
     const float centre2 = dot(d, d), centre = std::sqrt(centre2);
-    const float mean2 = largest(centre2 + (1.0f / 3.0f) * (node.radius * node.radius), 1e-30f);
+    const float mean2 = atLeast(centre2 + (1.0f / 3.0f) * (node.radius * node.radius), 1e-30f);
     const float perDistance = 1.0f / std::sqrt(clearance2(d, half, node.radius));
     const float rounding = -kGrazing * (centre + node.radius);
 
     const float signedAlong = -dot(d, axis);
-    const float along = select(node.intensity < 0.0f, std::fabs(signedAlong), signedAlong);
-    const float across = std::sqrt(largest(centre2 - along * along, 0.0f));
+    const float along = select(signMask(node.intensity), std::fabs(signedAlong), signedAlong);
+    const float across = std::sqrt(atLeast(centre2 - along * along, 0.0f));
     const float sinCone = sineOf(node.cosCone);
-    const float facing =
-        select(along > node.cosCone * centre, centre, along * node.cosCone + across * sinCone);
-    const float beside = least(extentAlong(half, axis) + node.radius * sinCone, node.radius);
-    const float facingExtent = select(node.cosCone > 0.0f, beside, node.radius);
+    const float facing = select(isLess(node.cosCone * centre, along), centre,
+                                along * node.cosCone + across * sinCone);
+    const float beside = atMost(extentAlong(half, axis) + node.radius * sinCone, node.radius);
+    const float facingExtent = select(isLess(0.0f, node.cosCone), beside, node.radius);
 
     const float above = dot(d, normal), aboveExtent = extentAlong(half, normal);
     const uint32_t bothSides = maskOf(!(dot(normal, normal) > 0.0f));
@@ -132,20 +133,20 @@ OSGRAYTRACE_INLINE float importance(const LightNode& node, PlainVec3 p, PlainVec
     const float unfaded =
         std::fabs(node.intensity) * std::sqrt(cosines(facing, facingExtent, perDistance) * surface);
 
-    const uint32_t litSide = maskOf(above + aboveExtent > rounding) | bothSides;
-    const uint32_t faces = maskOf(facing + facingExtent > rounding);
+    const uint32_t litSide = isLess(rounding, above + aboveExtent) | bothSides;
+    const uint32_t faces = isLess(rounding, facing + facingExtent);
     if constexpr (kLights == NodeLights::Areas)
         return select(litSide & faces, unfaded / mean2, 0.0f);
 
     // Areas alone have an emission of exactly a hemisphere.
-    const float cosAxis = along / largest(centre, 1e-15f);
+    const float cosAxis = along / atLeast(centre, 1e-15f);
     const uint32_t hemisphere = maskOf(node.cosEmission == 0.0f);
     const uint32_t shines =
         (faces & hemisphere) | (mayShineTo(node, centre2, cosAxis) & ~hemisphere);
     const float fading =
         node.falloff[0] + node.falloff[1] * std::sqrt(mean2) + node.falloff[2] * mean2;
     const uint32_t inReach = maskOf(centre2 <= node.reach * node.reach);
-    return select(litSide & shines & inReach, unfaded / largest(fading, 1e-30f), 0.0f);
+    return select(litSide & shines & inReach, unfaded / atLeast(fading, 1e-30f), 0.0f);
 }
 
 /// Returns the probability of the first node of a pair.
@@ -159,8 +160,8 @@ OSGRAYTRACE_INLINE float shareOfFirst(const LightNode& first, const LightNode& s
     const float b = importance<kLights>(second, p, normal);
     const float sum = a + b;
     const float share = select(maskOf(sum > 0.0f) & maskOf(sum < kInfinity), a / sum, 0.5f);
-    const float above = select(share > kLeastShare, share, kLeastShare);
-    const float within = select(above < 1.0f - kLeastShare, above, 1.0f - kLeastShare);
+    const float above = atLeast(share, kLeastShare);
+    const float within = atMost(above, 1.0f - kLeastShare);
     const uint32_t both = maskOf(a > 0.0f) & maskOf(b > 0.0f);
     return select(both, within, share);
 }

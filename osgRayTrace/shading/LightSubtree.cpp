@@ -105,11 +105,11 @@ struct NodeLanes
                 radius[i],
                 {axis.x[i], axis.y[i], axis.z[i]},
                 cosCone[i],
-                cosEmission[i],
                 extents[i],
                 intensity[i],
-                {falloff.x[i], falloff.y[i], falloff.z[i]},
                 next,
+                cosEmission[i],
+                {falloff.x[i], falloff.y[i], falloff.z[i]},
                 reach[i]};
     }
 };

@@ -112,9 +112,17 @@ public:
     /// Returns the probability with which choose() takes an emitter; the sum over all is 1.
     float pmf(Vec3 p, Vec3 normal, uint32_t emitter) const;
 
-    /// Chooses an emitter in each lane, and sets u to what is left of it.
-    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, FloatLanes& u,
-                     UintLanes& emitters, FloatLanes& pmf) const;
+    /// One choice of each lane.
+    struct Pick
+    {
+        FloatLanes u; ///< in [0,1); set to what is left of it
+        UintLanes emitters;
+        FloatLanes pmf;
+        LaneMask open; ///< lanes that have not come to an emitter
+    };
+    /// Chooses count emitters in each lane.
+    void chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, Pick* picks,
+                     std::size_t count) const;
 
     /// Returns the sum over all nodes of intensity times radius, which grows as lights that were
     /// neighbours part.

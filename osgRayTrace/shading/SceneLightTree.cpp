@@ -115,25 +115,31 @@ Lanes3 pointsFrom(const PlacedLightTree& placed, const Vec3Lanes& p, const Vec3L
 
 } // namespace
 
-void SceneLightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, const FloatLanes& u,
-                                 UintLanes& emitters, FloatLanes& pmf) const
+void SceneLightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, Pick* picks,
+                                 std::size_t count) const
 {
-    FloatLanes left = u;
     if (_top)
-        _top->chooseLanes(p, normal, left, emitters, pmf);
+        _top->chooseLanes(p, normal, picks, count);
     else
-        for (int i = 0; i < kLanes; ++i)
-        {
-            emitters[i] = 0;
-            pmf[i] = 1.0f;
-        }
+        for (std::size_t k = 0; k < count; ++k)
+            for (int i = 0; i < kLanes; ++i)
+            {
+                picks[k].emitters[i] = 0;
+                picks[k].pmf[i] = 1.0f;
+            }
     if (_placed.empty()) return;
+    for (std::size_t k = 0; k < count; ++k)
+        choosePlaced(p, normal, picks[k]);
+}
 
-    const UintLanes leaves = emitters;
+/// Takes the lanes that have chosen a mesh with a tree of its own down that tree.
+void SceneLightTree::choosePlaced(const Vec3Lanes& p, const Vec3Lanes& normal, Pick& pick) const
+{
+    const UintLanes leaves = pick.emitters;
     LaneMask open = 0;
     for (int i = 0; i < kLanes; ++i)
     {
-        emitters[i] = _first[leaves[i]];
+        pick.emitters[i] = _first[leaves[i]];
         open |= static_cast<LaneMask>(_placedOf[leaves[i]] != kInvalid) << i;
     }
     // Lanes that have come to the same mesh descend together.
@@ -145,13 +151,13 @@ void SceneLightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, co
             same |= static_cast<LaneMask>(leaves[i] == leaf) << i;
         const PlacedLightTree& placed = _placed[_placedOf[leaf]];
         const Lanes3 local = pointsFrom(placed, p, normal);
-        FloatLanes below = left, pmfBelow;
-        UintLanes numbers;
-        placed.own->tree->chooseLanes(local.p, local.normal, below, numbers, pmfBelow);
+        Pick below;
+        below.u = pick.u;
+        placed.own->tree->chooseLanes(local.p, local.normal, &below, 1);
         for (const int i : lanesIn(same))
         {
-            emitters[i] += numbers[i];
-            pmf[i] *= pmfBelow[i];
+            pick.emitters[i] += below.emitters[i];
+            pick.pmf[i] *= below.pmf[i];
         }
         open &= ~same;
     }

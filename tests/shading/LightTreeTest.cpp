@@ -233,11 +233,14 @@ TEST_CASE("light tree: choices have the probabilities that they claim", "[shadin
         }
         for (int draw = 0; draw < kDraws; draw += kLanes)
         {
-            FloatLanes u, pmf;
-            UintLanes emitters;
-            for (int i = 0; i < kLanes; ++i)
-                u[i] = random();
-            tree.chooseLanes(p, normal, u, emitters, pmf);
+            // Of two picks at once.
+            SceneLightTree::Pick picks[2];
+            for (SceneLightTree::Pick& pick : picks)
+                for (int i = 0; i < kLanes; ++i)
+                    pick.u[i] = random();
+            tree.chooseLanes(p, normal, picks, 2);
+            const UintLanes& emitters = picks[draw / kLanes % 2].emitters;
+            const FloatLanes& pmf = picks[draw / kLanes % 2].pmf;
             for (int i = 0; i < kLanes; ++i)
             {
                 ++lanes[emitters[i]];

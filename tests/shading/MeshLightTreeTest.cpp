@@ -174,11 +174,14 @@ TEST_CASE("mesh light tree: probabilities sum to 1, and choices have them", "[sh
         }
         for (int draw = 0; draw < 2 * kDraws; draw += kLanes)
         {
-            FloatLanes u, pmf;
-            UintLanes emitters;
-            for (int i = 0; i < kLanes; ++i)
-                u[i] = random();
-            tree.chooseLanes(p, normal, u, emitters, pmf);
+            // Of two picks at once.
+            SceneLightTree::Pick picks[2];
+            for (SceneLightTree::Pick& pick : picks)
+                for (int i = 0; i < kLanes; ++i)
+                    pick.u[i] = random();
+            tree.chooseLanes(p, normal, picks, 2);
+            const UintLanes& emitters = picks[draw / kLanes % 2].emitters;
+            const FloatLanes& pmf = picks[draw / kLanes % 2].pmf;
             SceneLightTree::Gathered gathered;
             tree.gather(emitters, gathered);
             for (int i = 1; i < kLanes; i += 2)

@@ -6,6 +6,8 @@
 #include "osgRayTrace/integrators/shared/LightBsdfs.h"
 #include "osgRayTrace/integrators/shared/ShadowLanes.h"
 
+#include <array>
+
 namespace osgRayTrace::engine
 {
 
@@ -33,12 +35,14 @@ void dimensionPoints(const UintLanes& seeds, uint32_t passIndex, uint32_t dimens
 namespace
 {
 
+constexpr int kMostTreePicks = 4;
+
 /// Returns how many samples of the tree a path takes at the end of the ray of this number. Most of
 /// the noise is that of the first ones: light that is found later is shared, see PathReuse.cpp.
 /// With 4 samples a hall and rooms with 1,000 lamps need a third of the time that they need with 1.
 constexpr int treePicks(int number)
 {
-    return number == 0 ? 4 : 1;
+    return number == 0 ? kMostTreePicks : 1;
 }
 
 /// Returns the density with which the light samples at the last vertex would have found the light
@@ -205,17 +209,21 @@ void sampleTree(Tile& tile, PathBlock& block, const Bounce& bounce, LaneMask lan
 {
     const TreePoints points = treePoints(bounce.surface, bounce.normal, bounce.transmissive);
     const auto picks = static_cast<uint32_t>(treePicks(bounce.number));
+    // Successive points of a sequence fill the tree and the lights evenly.
+    const uint32_t first = tile.context.key.index * picks;
+    std::array<SceneLightTree::Pick, kMostTreePicks> chosen;
+    FloatLanes u, v;
+    for (uint32_t j = 0; j < picks; ++j)
+        dimensionPoints(block.seed, first + j, bounceDimension(bounce.number, DimensionLightChoice),
+                        chosen[j].u, v);
+    tile.context.traced->lights().tree()->chooseLanes(points.position, points.normal, chosen.data(),
+                                                      picks);
     for (uint32_t j = 0; j < picks; ++j)
     {
-        // Successive points of a sequence fill the tree and the lights evenly.
-        FloatLanes u, v, choice, unused;
-        const uint32_t index = tile.context.key.index * picks + j;
-        dimensionPoints(block.seed, index, bounceDimension(bounce.number, DimensionLightPoint), u,
-                        v);
-        dimensionPoints(block.seed, index, bounceDimension(bounce.number, DimensionLightChoice),
-                        choice, unused);
+        dimensionPoints(block.seed, first + j, bounceDimension(bounce.number, DimensionLightPoint),
+                        u, v);
         TreeSamples samples;
-        treeLightLanes(tile.context, points, choice, static_cast<float>(picks),
+        treeLightLanes(tile.context, chosen[j], static_cast<float>(picks),
                        {bounce.surface, lanes, bounce.transmissive, u, v}, samples);
         const LaneMask visible = visibleLanes(tile.context, samples, tile.counts);
         countRays(tile, block, samples.lights.lit);

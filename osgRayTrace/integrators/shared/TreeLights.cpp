@@ -160,12 +160,21 @@ TreePoints treePoints(const SurfaceLanes& surface, const Vec3Lanes& normal, Lane
 void treeLightLanes(const PassContext& context, const TreePoints& points, const FloatLanes& choice,
                     float picks, const LightReceivers& receivers, TreeSamples& samples)
 {
+    SceneLightTree::Pick chosen;
+    chosen.u = choice;
+    context.traced->lights().tree()->chooseLanes(points.position, points.normal, &chosen, 1);
+    treeLightLanes(context, chosen, picks, receivers, samples);
+}
+
+void treeLightLanes(const PassContext& context, const SceneLightTree::Pick& chosen, float picks,
+                    const LightReceivers& receivers, TreeSamples& samples)
+{
     const SceneLightTree& tree = *context.traced->lights().tree();
-    tree.chooseLanes(points.position, points.normal, choice, samples.emitters, samples.pmf);
+    samples.emitters = chosen.emitters;
     SceneLightTree::Gathered gathered;
     tree.gather(samples.emitters, gathered);
     for (int i = 0; i < kLanes; ++i)
-        samples.pmf[i] *= picks;
+        samples.pmf[i] = chosen.pmf[i] * picks;
     LightLanes& lights = samples.lights;
     const LaneMask transmissive = receivers.throughSurface | receivers.surface.terminatorLanes;
     LaneMask parallelograms = 0;

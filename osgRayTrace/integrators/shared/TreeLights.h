@@ -37,8 +37,12 @@ struct EmitterPoint
 EmitterPoint emitterPoint(const PassContext& context, const LightEmitter& emitter, float u,
                           float v);
 
-/// Chooses an emitter in each lane by choice, in [0,1), and sets its sample at point (u, v) of
+/// Sets the samples of the emitters that a tree has chosen for each lane, at point (u, v) of
 /// receivers. picks: number of samples that the points take. There must be a tree.
+void treeLightLanes(const PassContext& context, const SceneLightTree::Pick& chosen, float picks,
+                    const LightReceivers& receivers, TreeSamples& samples);
+
+/// Chooses an emitter in each lane by choice, in [0,1), and sets its sample.
 void treeLightLanes(const PassContext& context, const TreePoints& points, const FloatLanes& choice,
                     float picks, const LightReceivers& receivers, TreeSamples& samples);
 
