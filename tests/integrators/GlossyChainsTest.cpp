@@ -1,5 +1,5 @@
 // GlossyChainsTest.cpp - more rays from one glossy surface to the next: means and noise compared
-// with those of a metal that has no such rays; threads.
+// with those of a metal that has no such rays; shadow rays; threads.
 // SPDX-License-Identifier: MIT
 #include "tests/Environments.h"
 #include "tests/integrators/Measure.h"
@@ -100,6 +100,26 @@ TEST_CASE("glossy chains: further rays change the noise, and not the mean",
         CHECK(error < 0.015 * without.mean.mean());
         CHECK(with.variance < 0.9 * without.variance); // 0.82, 0.80, 0.70
     }
+}
+
+TEST_CASE("glossy chains: few shadow rays go to lamps whose highlights are elsewhere",
+          "[integrators]")
+{
+    // The eye sees nothing but metal below two lamps, each surface of which asks for one of them.
+    SceneBuilder builder;
+    Material metal = mirror(Vec3(0.9f));
+    metal.roughness = 0.2f;
+    builder.add(sphereMesh({0, 0, 0}, 4.0f, 32), metal);
+    for (const float x : {-1.0f, 1.0f})
+        builder.addQuadLight({x, 0, 3}, {0, 0.3f, 0}, {0.3f, 0, 0}, Vec3(20.0f));
+    const Picture picture =
+        render(builder.build(), perspectiveView({0, -3, 0}, {0, 0, 0}, {0, 0, 1}, 40.0, 16, 16),
+               optionsOf(IntegratorKind::Path, 6), 4);
+    const auto& rays = picture.progress.rays;
+    CAPTURE(rays.camera, rays.secondary, rays.shadow);
+    CHECK(picture.mean().y > 0.0f);
+    CHECK(rays.shadow > rays.camera / 2); // what the eye sees has all of its own
+    CHECK(rays.shadow - rays.camera < rays.secondary / 5);
 }
 
 TEST_CASE("glossy chains: pictures are equal for any number of threads", "[integrators]")
