@@ -106,6 +106,7 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             continue;
         }
         if (!environment) continue; // a backdrop gives no light
+        if (path.isMirroredSky()) continue; // sampled before the pane
         if (use != PhotonUse::None && path.isOnCausticChain()) continue; // photons carry it
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // strata hold all of its light
