@@ -419,6 +419,35 @@ TEST_CASE("sky portals: the mean behind a pane with a sill on both sides",
     CHECK(error < 0.015 * none.mean());
 }
 
+TEST_CASE("sky portals: panes mirror the sun to what stands outside", "[integrators][statistics]")
+{
+    Room room;
+    room.build(false, true);
+    room.wall({4, 1, 1}, {0.6f, 0, 0}, {0, 3, 0}); // a sill
+    Material pane = glass(1.5f);
+    MaterialDetail thin;
+    thin.thinWalled = true;
+    pane.detail = std::make_shared<MaterialDetail>(thin);
+    room.builder.add(quadMesh({4, 2, 1}, {0, 1, 0}, {0, 0, 1}), pane);
+    room.addSunnySky(20000.0f);
+    const auto traced = room.builder.build();
+    const View view = perspectiveView({7, 2.5, 4}, {4.2, 2.5, 1}, {0, 0, 1}, 12.0, 16, 16);
+    const std::vector<RectangleLight> rectangles = {rectangle({4, 2, 1}, {0, 1, 0}, {0, 0, 1})};
+    TileCounts counts;
+    const std::vector<PaneSide> sides = panesOf(contextOf(*traced, view), rectangles, counts);
+    REQUIRE(sides.size() == 1);
+    CHECK(sides[0].normal.x == Approx(1.0f));
+    CHECK(sides[0].has({4.1f, 0, 0}));
+    CHECK_FALSE(sides[0].has({3.9f, 0, 0}));
+    const SkyPortals without(rectangles), with(rectangles, true, sides);
+    const Estimate chance = meanWith(*traced, view, &without, 192);
+    const Estimate known = meanWith(*traced, view, &with, 96);
+    const double error = std::hypot(chance.standardError(), known.standardError());
+    CAPTURE(chance.mean(), chance.standardError(), known.mean(), known.standardError());
+    CHECK(std::abs(known.mean() - chance.mean()) < 4.0 * error); // 6e-5 of all seeds fail
+    CHECK(known.standardError() < 0.5 * chance.standardError());
+}
+
 TEST_CASE("sky portals: pictures are equal for any number of threads", "[integrators]")
 {
     Room room;

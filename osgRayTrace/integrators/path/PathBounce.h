@@ -256,6 +256,22 @@ LaneMask lanesOnSpots(const Tile& tile, const PathBlock& block, const Bounce& bo
 float shareBesideSpots(const Tile& tile, const PathBlock& block, const Bounce& bounce, int i,
                        Vec3 wi, float pdfSky, float pdfPortal);
 
+/// What a bounce tells the rays that leave it of panes that mirror the sky.
+struct PaneMarks
+{
+    UintLanes sides = {};  ///< PathFlags::paneSides of the lanes that scatter
+    LaneMask mirrored = 0; ///< lanes at panes whose mirrored sky has been sampled before
+};
+
+/// Adds samples of the sky that panes mirror to surfaces before them: see PathPaneMirrors.cpp.
+void samplePaneMirrors(Tile& tile, PathBlock& block, const Bounce& bounce, const UintLanes& seeds);
+
+/// Returns the marks of a bounce, from the rays that have come.
+PaneMarks paneMarks(const Tile& tile, const PathBlock& block, const Bounce& bounce);
+
+/// Sets them in the flags of the rays that leave.
+void markPanes(const PaneMarks& marks, PathBlock& block);
+
 /// Returns the density with which the light samples at a point would have found a direction of the
 /// sky [1/sr]. from: begin of the ray that met the sky.
 float skyPdfW(const Tile& tile, Vec3 from, Vec3 direction);

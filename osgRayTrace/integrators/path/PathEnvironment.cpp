@@ -105,7 +105,8 @@ void addEnvironment(Tile& tile, const PathBlock& block, LaneMask missed, int num
             tile.sums.add(path, throughput * radianceBehind(tile.context, block.rays.ray, i));
             continue;
         }
-        if (!environment) continue; // a backdrop gives no light
+        if (!environment) continue;         // a backdrop gives no light
+        if (path.isMirroredSky()) continue; // sampled before the pane
         if (use != PhotonUse::None && path.isOnCausticChain()) continue; // photons carry it
         const bool sampled = block.pdfW[i] < kInfinity;
         if (sampled && tile.context.strata) continue; // strata hold all of its light

@@ -70,6 +70,20 @@ public:
     /// sampled.
     bool hasCollided() const { return (_word & kCollided) != 0; }
 
+    /// Returns the sides of panes, a bit for each, whose mirrored sky the surface that scattered
+    /// the path last has sampled; 0 once a mirror-like surface has followed. See
+    /// PathPaneMirrors.cpp.
+    uint32_t paneSides() const { return (_word & kPaneSides) / kPaneSide; }
+
+    /// Returns the flags of the same path after such a surface.
+    PathFlags withPaneSides(uint32_t sides) const { return PathFlags(_word | sides * kPaneSide); }
+
+    /// Returns whether a pane has mirrored the path since, so that samples have the sky's light.
+    bool isMirroredSky() const { return (_word & kMirroredSky) != 0; }
+
+    /// Returns the flags of the same path after such a pane.
+    PathFlags mirroredSky() const { return PathFlags(_word | kMirroredSky); }
+
     /// Returns the flags of the same path after a medium has scattered it.
     PathFlags collided() const
     {
@@ -97,9 +111,11 @@ public:
     {
         const uint32_t taken = (word | rough) & kTaken;
         const uint32_t gathered = (gathering & kGathered) | (taken / kTaken * kGathered);
-        const uint32_t scattered = (word & ~(kCausticChain | kGathered | kCollided)) | kScattered |
-                                   taken | gathered | (carried & kCausticChain);
-        const uint32_t chained = word | ((0u - ((word / kGathered) & 1u)) & kCausticChain);
+        const uint32_t scattered =
+            (word & ~(kCausticChain | kGathered | kCollided | kPaneSides | kMirroredSky)) |
+            kScattered | taken | gathered | (carried & kCausticChain);
+        const uint32_t chained = (word & ~(kPaneSides | kMirroredSky)) |
+                                 ((0u - ((word / kGathered) & 1u)) & kCausticChain);
         return (chained & mirrored) | (scattered & ~mirrored);
     }
 
@@ -112,6 +128,9 @@ private:
     static constexpr uint32_t kTaken = 0x80000u;
     static constexpr uint32_t kSplit = 0x100000u;
     static constexpr uint32_t kCollided = 0x200000u;
+    static constexpr uint32_t kPaneSide = 0x400000u; ///< the least bit of four
+    static constexpr uint32_t kPaneSides = 15u * kPaneSide;
+    static constexpr uint32_t kMirroredSky = 0x4000000u;
     static_assert((kTilePixels & (kTilePixels - 1)) == 0 && 2 * kTilePixels <= kScattered,
                   "the pixel and the bit of reuse are below the other bits");
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
+#include "osgRayTrace/integrators/shared/SkyPortals.h"
 #include "osgRayTrace/shading/SmoothLanes.h"
 
 #include <algorithm>
@@ -326,7 +327,10 @@ void scatter(Tile& tile, PathBlock& block, const Bounce& bounce)
         block.active &= playRoulette(roulette, survival, throughput);
     }
     const UintLanes flags = block.flags;
+    const bool panes = tile.context.portals && !tile.context.portals->panes().empty();
+    const PaneMarks marks = panes ? paneMarks(tile, block, bounce) : PaneMarks();
     spawnRays(block, next, throughput, bounce.gathering, bounce.rough, bounce.carried);
+    if (panes) markPanes(marks, block);
     if (tile.context.traced->traits().mipmaps)
     {
         LaneMask mirrored = split.lanes;

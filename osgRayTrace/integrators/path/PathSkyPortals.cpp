@@ -121,6 +121,7 @@ void samplePortals(Tile& tile, PathBlock& block, const Bounce& bounce, const Uin
     }
     addSamples(tile, block, bounce, samples);
     sampleSunSpots(tile, block, bounce, seeds);
+    if (!portals.panes().empty()) samplePaneMirrors(tile, block, bounce, seeds);
 }
 
 float skyPdfW(const Tile& tile, Vec3 from, Vec3 direction)

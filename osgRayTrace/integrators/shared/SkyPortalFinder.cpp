@@ -449,7 +449,10 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
         found += point.found;
     }
     if (static_cast<float>(found) > kEasyToFind * static_cast<float>(sent)) return nullptr;
-    return std::make_shared<const SkyPortals>(std::move(rectangles), lightsSpots(*context.traced));
+    const bool spots = lightsSpots(*context.traced);
+    std::vector<PaneSide> panes;
+    if (spots && context.traced->traits().panes) panes = panesOf(context, rectangles, counts);
+    return std::make_shared<const SkyPortals>(std::move(rectangles), spots, std::move(panes));
 }
 
 } // namespace osgRayTrace::engine

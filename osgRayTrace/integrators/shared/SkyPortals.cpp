@@ -126,8 +126,9 @@ void addDensities(const RectangleLight& rectangle, const Vec3Lanes& points, cons
 
 } // namespace
 
-SkyPortals::SkyPortals(std::vector<RectangleLight> rectangles, bool lightsSpots)
-    : _rectangles(std::move(rectangles)), _lightsSpots(lightsSpots)
+SkyPortals::SkyPortals(std::vector<RectangleLight> rectangles, bool lightsSpots,
+                       std::vector<PaneSide> panes)
+    : _rectangles(std::move(rectangles)), _lightsSpots(lightsSpots), _panes(std::move(panes))
 {
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/base/Lanes.h"
+#include "osgRayTrace/integrators/shared/PortalPanes.h"
 #include "osgRayTrace/shading/RectangleLight.h"
 
 #include <optional>
@@ -23,11 +24,16 @@ public:
     static constexpr std::size_t kMost = 4; ///< rectangles at most
 
     /// Takes rectangles whose normals point out of the room, in engine space.
-    /// lightsSpots: whether beams from the portals go the same ways as rays to them.
-    explicit SkyPortals(std::vector<RectangleLight> rectangles, bool lightsSpots = true);
+    /// lightsSpots: whether beams from the portals go the same ways as rays to them. panes: of the
+    /// portals, kMost at most.
+    explicit SkyPortals(std::vector<RectangleLight> rectangles, bool lightsSpots = true,
+                        std::vector<PaneSide> panes = {});
 
     /// Returns the rectangles, in engine space; their normals point out of the room.
     const std::vector<RectangleLight>& rectangles() const { return _rectangles; }
+
+    /// Returns the outer sides of panes in the portals, all of different normals.
+    const std::vector<PaneSide>& panes() const { return _panes; }
 
     /// Sets the sum over the rectangles of the weights by which points choose among them; 0: the
     /// point is on the outer side of all, and samples nothing.
@@ -65,6 +71,7 @@ public:
 private:
     std::vector<RectangleLight> _rectangles;
     bool _lightsSpots;
+    std::vector<PaneSide> _panes;
 };
 
 } // namespace osgRayTrace::engine
