@@ -21,18 +21,18 @@ namespace
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too.
-static_assert(sizeof(SeenPlane) == 28 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
+static_assert(sizeof(SeenPlane) == 32 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
               sizeof(SeenPoint) == 24);
-static_assert(sizeof(GatheredPhotons) == 8680);
+static_assert(sizeof(GatheredPhotons) == 8736);
 #endif
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
 {
-    a(p.plane.normal, p.plane.offset, p.lookup, p.edge, p.undecided, p.compared, p.difference,
-      p.squares);
+    a(p.plane.normal, p.plane.offset, p.lookup, p.edge, p.undecided, p.compared, p.discPixels,
+      p.difference, p.squares);
 }
 
-constexpr std::size_t kPlaneBytes = sizeof(Plane) + 2 * sizeof(float) + 4;
+constexpr std::size_t kPlaneBytes = sizeof(Plane) + 3 * sizeof(float) + 4;
 
 void putPlanes(WireWriter& out, const TilePhotons& photons)
 {
@@ -57,8 +57,9 @@ void putWanted(WireWriter& out, const TilePhotons& photons)
     const GatheredPhotons& g = photons.gathered;
     const bool hasRadii =
         std::any_of(g.radius, g.radius + kTilePixels, [](float r) { return r != 0.0f; });
-    out(g.choosesPlanes, g.separate, g.wantsFirstHits, g.balances, g.comparedBlock, g.seenFirst,
-        g.seenStride, g.pointStride, hasRadii);
+    out(g.choosesPlanes, g.shrink2, g.smallDisc, g.separate, g.wantsFirstHits, g.balances,
+        g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst, g.seenStride,
+        g.pointStride, hasRadii);
     if (hasRadii) out.append(g.radius, sizeof g.radius);
     out(!photons.planes.empty());
     putPlanes(out, photons);
@@ -68,8 +69,9 @@ void takeWanted(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasRadii = false, hasPlanes = false;
-    in(g.choosesPlanes, g.separate, g.wantsFirstHits, g.balances, g.comparedBlock, g.seenFirst,
-       g.seenStride, g.pointStride, hasRadii);
+    in(g.choosesPlanes, g.shrink2, g.smallDisc, g.separate, g.wantsFirstHits, g.balances,
+       g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst, g.seenStride,
+       g.pointStride, hasRadii);
     if (hasRadii) in.copy(g.radius, sizeof g.radius);
     in(hasPlanes);
     takePlanes(in, hasPlanes, photons);
@@ -80,7 +82,8 @@ void putFound(WireWriter& out, const TilePhotons& photons)
 {
     const GatheredPhotons& g = photons.gathered;
     const bool hasPlanes = g.choosesPlanes && !photons.planes.empty();
-    out(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.comparedBlock, hasPlanes);
+    out(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.blur, g.blurred, g.comparedBlock,
+        hasPlanes);
     out.append(g.radius, sizeof g.radius);
     if (g.separate) out.append(g.count, sizeof g.count);
     if (g.separate) out.append(g.flux, sizeof g.flux);
@@ -95,7 +98,8 @@ void takeFound(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasPlanes = false;
-    in(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.comparedBlock, hasPlanes);
+    in(g.separate, g.wantsFirstHits, g.carried, g.leaked, g.blur, g.blurred, g.comparedBlock,
+       hasPlanes);
     in.copy(g.radius, sizeof g.radius);
     if (g.separate) in.copy(g.count, sizeof g.count);
     if (g.separate) in.copy(g.flux, sizeof g.flux);

@@ -61,6 +61,8 @@ void SessionState::takePhotons(int tile, int pass, const TilePhotons& traced, fl
     std::copy(found.flux, found.flux + kTilePixels, gathered.flux);
     gathered.carried = found.carried;
     gathered.leaked = found.leaked;
+    gathered.blur = found.blur;
+    gathered.blurred = found.blurred;
     std::copy(found.atFirstHits, found.atFirstHits + kTilePixels, gathered.atFirstHits);
     std::memcpy(gathered.differences, found.differences, sizeof gathered.differences);
     if (gathered.planes && gathered.choosesPlanes)

@@ -376,6 +376,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.planes = lookups->planes;
         gathered.wantsFirstHits = TileLookups::repays(pass);
         gathered.balances = lookups->balances(pass);
+        gathered.shrink2 = _shrink * _shrink;
+        gathered.smallDisc = lookups->smallDisc(pass, _alpha);
+        lookups->beginBlur(pass, gathered);
     }
     gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);

@@ -22,6 +22,13 @@
 // passes. Each colour channel has shares of its own: green light that leaks leaves red pixels
 // alone. These shares do not depend on the pass, so the tile's light has no bias. The sum has
 // little noise, as most photons are in it on both sides.
+//
+// Discs behind mirrors and glass have no footprints. They make smooth light brighter or darker by
+// what discs of half the radius tell: measureBlur in PathPhotons.cpp. Summed over the tile that has
+// little noise, too, for most photons are in as many discs as half discs. So each pass b of these
+// discs' light D, for the tile as a whole, leaves every pixel's light by such discs: each of it
+// becomes (1 - b / D) of itself. What the first kChoosingPasses have too much, b_h of D_h in a
+// half, is taken by the passes that make up for them, as b_h / D_h / kRepayingPasses more.
 #include "osgRayTrace/session/TileLookups.h"
 
 #include "osgRayTrace/photons/RadiusSchedule.h"
@@ -43,6 +50,15 @@ constexpr float kRoundedDown = 1.0f - 0x1p-19f;
 /// disc reaches into them, and they have not changed over by chance.
 constexpr int kChangedNeighbours = 3;
 constexpr float kNeighbourSignificance = 2.0f;
+
+/// The blur of discs without footprints stays in the image if it changes from pass to pass by more
+/// than this share of their light, as the root of its mean square. A disc's own noise is a quarter
+/// of its light in the first passes, and more later on.
+constexpr float kNoisyBlur = 0.08f;
+
+/// Discs that are no larger than so many footprints are given up, in tiles whose discs leak and in
+/// others. As large as one, they have the noise of the footprint, and blur besides.
+constexpr float kSmallBesideCaustics = 3.0f, kSmallElsewhere = 1.0f;
 
 /// Discs leak if one of so many of the tile's pixels has changed over.
 constexpr int kLeakingShare = 16;
@@ -101,14 +117,56 @@ void TileLookups::restart()
 void TileLookups::finish(int pass, int counted, float alpha, const GatheredPhotons& gathered,
                          RgbaLanes* rgba)
 {
+    _alpha = alpha;
     if (pass < kChoosingPasses) _counted[pass] = static_cast<uint8_t>(counted);
+    if (gathered.wantsBlur && pass < kChoosingPasses) addBlur(pass, gathered);
     if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
     if (pass + 1 == kChoosingPasses)
     {
         endChoosing();
         _earlierLeak = earlierLeak(static_cast<double>(alpha));
     }
-    if (gathered.balances) takeLeaked(pass, gathered.leaked, rgba);
+    if (gathered.balances) takeLeaked(pass, gathered, rgba);
+}
+
+void TileLookups::addBlur(int pass, const GatheredPhotons& gathered)
+{
+    const auto counted = static_cast<float>(_counted[pass]);
+    _blur[pass & 1] += gathered.blur * counted;
+    _blurred[pass & 1] += gathered.blurred * counted;
+    const float blur = luminance(gathered.blur);
+    _blurSum += blur;
+    _blurSquares += blur * blur;
+    ++_blurPasses;
+}
+
+bool TileLookups::takesBlur() const
+{
+    const float light = luminance(_blurred[0] + _blurred[1]);
+    if (_blurPasses < 2 || !(light > 0.0f)) return false;
+    const auto passes = static_cast<float>(_blurPasses);
+    const float mean = _blurSum / passes, variance = _blurSquares / passes - mean * mean;
+    return std::sqrt(variance) < kNoisyBlur * light / passes;
+}
+
+void TileLookups::beginBlur(int pass, GatheredPhotons& gathered) const
+{
+    gathered.wantsBlur = pass < kChoosingPasses || takesBlur();
+    gathered.takesBlur = gathered.wantsBlur && pass >= kChoosingPasses;
+    if (!gathered.takesBlur || !repays(pass)) return;
+    const int half = pass & 1;
+    for (int c = 0; c < 3; ++c)
+        if (_blurred[half][c] > 0.0f)
+            gathered.earlierBlur[c] = _blur[half][c] / _blurred[half][c] / kRepayingPasses;
+}
+
+// Passes that make up for others count the discs of pixels that compare, so these change none.
+float TileLookups::smallDisc(int pass, float alpha) const
+{
+    if (repays(pass)) return 0.0f;
+    const double shrink2 = globalRadiusSquared(pass, static_cast<double>(alpha));
+    const float small = _leaks ? kSmallBesideCaustics : kSmallElsewhere;
+    return small / static_cast<float>(shrink2);
 }
 
 void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba)
@@ -162,7 +220,6 @@ void TileLookups::endChoosing()
         if (planes[p].lookup == PixelLookup::Compared) light += _discs[0][p] + _discs[1][p];
     }
     _leaks = count * kLeakingShare >= kTilePixels && isFinite(light) && luminance(light) > 0.0f;
-    _discLight = light;
 }
 
 /// Returns what leaks in the mean of the first kChoosingPasses, by how often they count, over what
@@ -187,15 +244,20 @@ float TileLookups::earlierLeak(double alpha) const
     return static_cast<float>(earlier / counted / (later / repaying));
 }
 
-void TileLookups::takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const
+void TileLookups::takeLeaked(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba) const
 {
+    const auto takesDisc = [&](std::size_t p)
+    { return planes[p].lookup == PixelLookup::Compared && !gathered.isSmall(planes[p]); };
+    Vec3 light(0.0f);
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+        if (takesDisc(p)) light += _discs[0][p] + _discs[1][p];
     const float passes = repays(pass) ? 1.0f + _earlierLeak / kRepayingPasses : 1.0f;
     Vec3 perLight(0.0f); // of a pixel's light by discs; 0 in channels without any
     for (int c = 0; c < 3; ++c)
-        if (_discLight[c] > 0.0f) perLight[c] = -passes * leaked[c] / _discLight[c];
+        if (light[c] > 0.0f) perLight[c] = -passes * gathered.leaked[c] / light[c];
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
-        if (planes[p].lookup != PixelLookup::Compared) continue;
+        if (!takesDisc(p)) continue;
         addLight(p, perLight * (_discs[0][p] + _discs[1][p]), rgba);
     }
 }
@@ -217,8 +279,22 @@ void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compar
         const double sum = static_cast<double>(known.difference);
         const double squares = static_cast<double>(known.squares);
         compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
-        if (!changed) discs.addPixel(known.compared, sum, squares, laterShare);
+        if (!changed)
+            discs.addPixel(known.compared, sum, squares, laterShare * discsUntil(p, passes));
     }
+}
+
+/// Returns the sum of the radii of the later passes in which the pixel, which still compares, looks
+/// up discs, over that of all later passes. Radii go with n^((alpha - 1) / 2) [Knaus11].
+double TileLookups::discsUntil(std::size_t pixel, int passes) const
+{
+    const double small = static_cast<double>(smallDisc(passes, _alpha));
+    const double disc = static_cast<double>(planes[pixel].discPixels);
+    if (!(disc > 0.0 && disc < small)) return 1.0;
+    const double alpha = static_cast<double>(_alpha);
+    const double first = kChoosingPasses * (1.0 + kRepayingPasses) / passes;
+    const double share = alpha < 1.0 ? std::pow(disc / small, 1.0 / (1.0 - alpha)) : 0.0;
+    return std::pow(std::max(first, share), 0.5 + 0.5 * alpha);
 }
 
 /// Returns how often the passes of a half count in which the pixel looked up discs before it

@@ -43,6 +43,12 @@ public:
     /// Forgets all passes so far, which leave the image: see FirstPasses. Does so only once.
     void restart();
 
+    /// Sets what a pass is to do about the blur of discs without footprints.
+    void beginBlur(int pass, GatheredPhotons& gathered) const;
+
+    /// GatheredPhotons::smallDisc of a pass. alpha: of the radius schedule.
+    float smallDisc(int pass, float alpha) const;
+
     /// Takes what a pass has looked up in the tile, and corrects its light. Passes below
     /// kChoosingPasses come in their order, before all others. counted: how often the light of the
     /// pass counts; rgba holds it so many times. alpha: of the radius schedule.
@@ -60,11 +66,14 @@ public:
     double discShare(std::size_t pixel, int passes) const;
 
 private:
+    double discsUntil(std::size_t pixel, int passes) const;
     int countedOf(std::size_t pixel, int half) const;
     void forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba);
+    void addBlur(int pass, const GatheredPhotons& gathered);
+    bool takesBlur() const;
     void endChoosing();
     float earlierLeak(double alpha) const;
-    void takeLeaked(int pass, Vec3 leaked, RgbaLanes* rgba) const;
+    void takeLeaked(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba) const;
 
     /// The light that photons have added at first hits in the even and in the odd passes that
     /// looked up discs and might choose [radiance, summed over the passes].
@@ -80,9 +89,15 @@ private:
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};
     bool _hasRestarted = false;
-    bool _leaks = false; ///< true: the discs of the pixels that still compare leak
-    /// The light of _discs, summed over the pixels that still compare; of use if their discs leak.
-    Vec3 _discLight{0.0f};
+    /// What discs without footprints have blurred in the even and the odd passes that may choose,
+    /// and their light [radiance, summed over the tile].
+    Vec3 _blur[2] = {Vec3(0.0f), Vec3(0.0f)}, _blurred[2] = {Vec3(0.0f), Vec3(0.0f)};
+    /// Of these passes: sums over them of the blur's luminance, of its square, and how many there
+    /// are.
+    float _blurSum = 0.0f, _blurSquares = 0.0f;
+    int _blurPasses = 0;
+    bool _leaks = false;       ///< true: the discs of the pixels that still compare leak
+    float _alpha = 1.0f;       ///< of the radius schedule
     float _earlierLeak = 0.0f; ///< earlierLeak(), once all passes have chosen
 };
 

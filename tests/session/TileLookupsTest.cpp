@@ -288,3 +288,56 @@ TEST_CASE("tile lookups: bias of discs counts as often as the passes that have i
         }
     }
 }
+
+TEST_CASE("tile lookups: what discs without footprints blur leaves the image unless it is noise",
+          "[session]")
+{
+    const float noise = GENERATE(0.02f, 0.5f); // of the light, with either sign
+    constexpr float kBlur = 0.1f, kLight = 4.0f;
+    TileLookups lookups;
+    double left[2] = {}; // of blur, in each half
+    for (int pass = 0; pass < 64; ++pass)
+    {
+        const auto gathered = gatheredIn(pass);
+        lookups.beginBlur(pass, *gathered);
+        CAPTURE(noise, pass);
+        REQUIRE(gathered->wantsBlur == (pass < kChoosingPasses || noise < 0.1f));
+        REQUIRE(gathered->takesBlur == (pass >= kChoosingPasses && noise < 0.1f));
+        const float sign = pass / 2 % 2 ? -1.0f : 1.0f;
+        gathered->blurred = Vec3(kLight);
+        gathered->blur = Vec3(kBlur + sign * noise * kLight);
+        left[pass & 1] += double(kBlur);
+        if (gathered->takesBlur)
+            left[pass & 1] -= double(kBlur) + double(gathered->earlierBlur.y * kLight);
+        TileRgba rgba = {};
+        lookups.finish(pass, 1, kAlpha, *gathered, rgba);
+    }
+    for (const double half : left)
+        CHECK(half == Approx(noise < 0.1f ? 0.0 : 32.0 * double(kBlur)).margin(1e-5));
+}
+
+TEST_CASE("tile lookups: discs are given up once they are as small as footprints", "[session]")
+{
+    const TileLookups lookups;
+    SeenPlane pixel;
+    pixel.lookup = PixelLookup::Compared;
+    pixel.discPixels = 5.0f;
+    int first = 0;
+    for (int pass = 0; pass < 1024; ++pass)
+    {
+        GatheredPhotons gathered;
+        gathered.smallDisc = lookups.smallDisc(pass, kAlpha);
+        const double area = 5.0 * globalRadiusSquared(pass, double(kAlpha));
+        CAPTURE(pass);
+        CHECK(gathered.isSmall(pixel) == (area < 1.0 && !TileLookups::repays(pass)));
+        if (!first && gathered.isSmall(pixel)) first = pass;
+    }
+    CHECK(first > 64);
+    GatheredPhotons gathered;
+    gathered.smallDisc = 100.0f;
+    pixel.lookup = PixelLookup::Disc;
+    CHECK(!gathered.isSmall(pixel));
+    pixel.lookup = PixelLookup::Compared;
+    pixel.discPixels = 0.0f; // not known
+    CHECK(!gathered.isSmall(pixel));
+}

@@ -117,6 +117,12 @@ struct GlossyChains
     LaneMask met[kTileBlocks] = {}; ///< pixels that have such rays
 };
 
+/// The light that pixels have from discs that no footprint is compared with.
+struct BlurredLight
+{
+    Vec3 pixels[kTilePixels] = {};
+};
+
 struct Tile
 {
     Tile(const PassContext& c, int l, int b, TileResult& r)
@@ -144,10 +150,11 @@ struct Tile
     SkyRays sky;
     SunSpots spots;
     GlossyChains chains;
-    Bsdf bsdfs[kLanes];          ///< BSDFs of the block at work
-    GatherScratch gatherScratch; ///< scratch of all photon look-ups
-    bool hasBeams = false;       ///< beams are those near the tile's camera rays
-    BeamPieces beams, rayBeams;  ///< rayBeams: scratch
+    Bsdf bsdfs[kLanes];                    ///< BSDFs of the block at work
+    GatherScratch gatherScratch;           ///< scratch of all photon look-ups
+    std::unique_ptr<BlurredLight> blurred; ///< null: there is none
+    bool hasBeams = false;                 ///< beams are those near the tile's camera rays
+    BeamPieces beams, rayBeams;            ///< rayBeams: scratch
 };
 
 /// A Bounce holds the surfaces that the rays of a block met, and the sets of lanes by what they do.
@@ -343,6 +350,9 @@ struct FootprintSums
 /// earlier passes have chosen. queries are discs of any radius at the lanes that gather.
 void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
                       PhotonQueryLanes queries, FootprintSums& sums);
+
+/// Takes what discs have blurred out of the tile's sums again, if it is to be taken.
+void takeBlur(Tile& tile);
 
 /// Chooses for later passes which pixels of the queries' lanes compare their disc with their
 /// footprint, and which take the photons of the footprint. discRadiance is that of the discs.

@@ -60,6 +60,7 @@ struct Footprint
 {
     Vec3 centre{0.0f};
     float radius = 0.0f; ///< 0: the plane is seen too obliquely
+    float area = 0.0f;
 };
 
 Footprint footprintOf(const PixelProjection& projection, PixelCorner pixel, const Plane& plane)
@@ -78,7 +79,7 @@ Footprint footprintOf(const PixelProjection& projection, PixelCorner pixel, cons
     const PixelProjection::Place place = projection.place(*centre);
     const float area = projection.pixelArea(*centre, place.s, plane.normal);
     if (!(radius * radius < kLongestFootprint * kLongestFootprint * area)) return {};
-    return {*centre, radius * (1.0f + 0x1p-10f)};
+    return {*centre, radius * (1.0f + 0x1p-10f), area};
 }
 
 Plane planeOf(const Bounce& bounce, int i)
@@ -211,9 +212,10 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = gathered.planes[pixel];
-        const bool compares =
-            known.lookup == PixelLookup::Compared && (gathered.choosesPlanes || gathered.balances);
-        if (known.lookup != PixelLookup::Footprint && !compares) continue;
+        const bool isSmall = gathered.isSmall(known);
+        const bool compares = known.lookup == PixelLookup::Compared && !isSmall &&
+                              (gathered.choosesPlanes || gathered.balances);
+        if (known.lookup != PixelLookup::Footprint && !isSmall && !compares) continue;
         pixels[i] = cornerOf(tile, pixel);
         const Footprint footprint =
             footprintOf(*tile.context.projection, pixels[i], planeOf(bounce, i));
@@ -224,6 +226,12 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
             // The pixel sees more than one plane.
             if (gathered.choosesPlanes) known.lookup = PixelLookup::Disc;
             continue;
+        }
+        if (gathered.choosesPlanes && compares)
+        {
+            const float radius = gathered.radius[pixel];
+            known.discPixels =
+                kPi * radius * radius / (footprint.area * gathered.shrink2); // 0: no radius yet
         }
         setLane(queries.position, i, footprint.centre);
         queries.radius[i] = footprint.radius;

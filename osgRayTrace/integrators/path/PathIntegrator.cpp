@@ -337,6 +337,7 @@ void PathIntegrator::renderTile(const PassContext& context, int left, int bottom
         gatherOnly(tile, use);
     else
         tracePaths(tile, use);
+    takeBlur(tile);
     writeSums(tile, result.rgba);
     dropNotFinite(result);
 }

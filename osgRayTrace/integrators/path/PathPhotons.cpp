@@ -144,7 +144,63 @@ void compareDiscs(Tile& tile, PhotonQueryLanes queries, const PathBlock& block,
     }
 }
 
+/// Returns the lanes whose discs no footprint is compared with.
+LaneMask blurredLanes(const Tile& tile, const PathBlock& block, const Bounce& bounce,
+                      LaneMask lanes)
+{
+    const GatheredPhotons& gathered = *tile.result.photons.gathered;
+    if (!gathered.wantsBlur) return 0;
+    if (bounce.number > 0 || bounce.below) return lanes;
+    LaneMask result = lanes & bounce.collided;
+    if (tile.context.photonUse != PhotonUse::Caustics) return result;
+    for (const int i : lanesIn(lanes))
+        if (gathered.planes[block.flagsOf(i).pixel()].lookup == PixelLookup::Disc)
+            result |= 1u << i;
+    return result;
+}
+
+/// Sums up the light of discs, and the part of it that is blur. Means of the light over discs are
+/// off by a multiple of the square of the radius, so two of them tell that: L(r) - L(r / 2) is
+/// three quarters of it [Richardson11].
+void measureBlur(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
+                 const PhotonSumLanes& sums)
+{
+    queries.lanes = blurredLanes(tile, block, bounce, queries.lanes);
+    if (!queries.lanes) return;
+    if (!tile.blurred) tile.blurred = std::make_unique<BlurredLight>();
+    GatheredPhotons& gathered = *tile.result.photons.gathered;
+    PhotonQueryLanes half = queries;
+    for (const int i : lanesIn(queries.lanes))
+        half.radius[i] = queries.radius[i] * kSmallerDisc;
+    PhotonSumLanes smaller;
+    gatherLanes(tile, half, block, bounce, smaller);
+    constexpr float kArea = kSmallerDisc * kSmallerDisc;
+    for (const int i : lanesIn(queries.lanes))
+    {
+        const float discArea = kPi * queries.radius[i] * queries.radius[i];
+        const Vec3 scale = laneOf(block.throughput, i) / discArea;
+        const Vec3 light = scale * laneOf(sums.power, i);
+        const Vec3 blur =
+            (light - scale * laneOf(smaller.power, i) / kArea) * (1.0f / (1.0f - kArea));
+        if (!isFinite(light) || !isFinite(blur)) continue;
+        tile.blurred->pixels[block.flagsOf(i).pixel()] += light;
+        gathered.blurred += light;
+        gathered.blur += blur;
+    }
+}
+
 } // namespace
+
+void takeBlur(Tile& tile)
+{
+    if (!tile.blurred || !tile.result.photons.gathered->takesBlur) return;
+    const GatheredPhotons& gathered = *tile.result.photons.gathered;
+    Vec3 share = gathered.earlierBlur;
+    for (int c = 0; c < 3; ++c)
+        if (gathered.blurred[c] > 0.0f) share[c] += gathered.blur[c] / gathered.blurred[c];
+    for (uint32_t p = 0; p < kTilePixels; ++p)
+        tile.sums.add(PathFlags::ofPixel(p), -share * tile.blurred->pixels[p]);
+}
 
 void chooseGathering(const PathBlock& block, Bounce& bounce, PhotonUse use)
 {
@@ -189,6 +245,7 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     PhotonSumLanes sums;
     gatherLanes(tile, queries, block, bounce, sums);
     if (gathered.comparedBlock >= 0) compareDiscs(tile, queries, block, bounce, sums);
+    measureBlur(tile, queries, block, bounce, sums);
     correctEdges(tile, block, bounce, queries, sums);
     Vec3Lanes radiance = {};
     const LaneMask firstHits = bounce.number > 0 || bounce.below ? 0 : ~bounce.collided;

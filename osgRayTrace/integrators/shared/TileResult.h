@@ -67,6 +67,8 @@ struct SeenPlane
     DiscEdge edge = DiscEdge::Unknown;
     // Passes of those that may choose: before the pixel compared, and those that it compared.
     uint8_t undecided = 0, compared = 0;
+    /// Area of the disc over that of the footprint, both as in the first pass; 0: not known yet.
+    float discPixels = 0.0f;
     // Sums over the passes that were compared, of the luminance by the disc less that by the
     // footprint, and of its square.
     float difference = 0.0f, squares = 0.0f;
@@ -82,6 +84,19 @@ struct GatheredPhotons
     /// The planes of the tile's kTilePixels pixels; null: all look-ups are discs.
     SeenPlane* planes = nullptr;
     bool choosesPlanes = false; ///< whether this pass may change the planes
+
+    /// Square of the radii of this pass over those of the first pass.
+    float shrink2 = 1.0f;
+
+    /// Pixels that still compare take their footprint in this pass if SeenPlane::discPixels is
+    /// below this: such small discs spare little noise or none.
+    float smallDisc = 0.0f;
+
+    bool isSmall(const SeenPlane& pixel) const
+    {
+        return pixel.lookup == PixelLookup::Compared && pixel.discPixels > 0.0f &&
+               pixel.discPixels < smallDisc;
+    }
 
     // If separate is set (for the local radius schedule), the photons that were found come out in
     // count and flux, and are not part of the image.
@@ -99,6 +114,14 @@ struct GatheredPhotons
     /// them.
     bool balances = false;
     Vec3 leaked{0.0f};
+
+    /// If wantsBlur is set, discs that no footprint is compared with are compared with discs of
+    /// half their radius: blurred is the radiance by the former, summed over the tile, and blur an
+    /// estimate of what the light's curvature adds to that. If takesBlur is set, the pixels lose
+    /// this pass's share of blur in blurred, and earlierBlur besides, of their light by such discs.
+    bool wantsBlur = false, takesBlur = false;
+    Vec3 earlierBlur{0.0f};
+    Vec3 blur{0.0f}, blurred{0.0f};
 
     /// The luminance that photons have added to the pixels of the tile, summed up.
     float carried = 0.0f;
