@@ -26,14 +26,14 @@ OSGRAYTRACE_INLINE float floatOfBits(int32_t bits)
     return x;
 }
 
-/// Returns x, or the bound if x is less. bound: not negative.
+/// Returns x, or the bound if x is less. bound: not negative. x: not NaN.
 OSGRAYTRACE_INLINE float atLeast(float x, float bound)
 {
     const int32_t a = signedBits(x), b = signedBits(bound);
     return floatOfBits(a > b ? a : b);
 }
 
-/// Returns x, or the bound if x is more. bound: not negative.
+/// Returns x, or the bound if x is more. bound: not negative. x: not NaN.
 OSGRAYTRACE_INLINE float atMost(float x, float bound)
 {
     const int32_t a = signedBits(x), b = signedBits(bound);
@@ -46,7 +46,8 @@ OSGRAYTRACE_INLINE uint32_t signMask(float x)
     return static_cast<uint32_t>(signedBits(x) >> 31);
 }
 
-/// Returns all bits set if a is less than b, else 0. The difference must not be NaN.
+/// Returns all bits set if a is less than b, else 0. The difference must not be NaN, and -0 counts
+/// as less than 0.
 OSGRAYTRACE_INLINE uint32_t isLess(float a, float b)
 {
     return signMask(a - b);

@@ -5,7 +5,9 @@
 #include "osgRayTrace/base/Cpu.h"
 #include "osgRayTrace/base/Lanes.h"
 
-#if defined(__has_builtin)
+// Elsewhere kernels have no versions for wide vectors: see Kernel.h.
+#if defined(__has_builtin) && defined(__x86_64__) && defined(__ELF__) && defined(__OPTIMIZE__) &&  \
+    !defined(OSGRAYTRACE_NO_CLONES)
 #if __has_builtin(__builtin_shufflevector)
 #define OSGRAYTRACE_SHUFFLES
 #endif

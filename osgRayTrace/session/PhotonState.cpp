@@ -378,7 +378,8 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.balances = lookups->balances(pass);
         gathered.shrink2 = _shrink * _shrink;
         gathered.smallDisc = lookups->smallDisc(pass, _alpha);
-        lookups->beginBlur(pass, gathered);
+        // Discs of half the least radius would lose photons to rounding.
+        if (_least * _shrink > 2.0f * _floor) lookups->beginBlur(pass, gathered);
     }
     gathered.choosesPlanes = pass < kChoosingPasses;
     gathered.comparedBlock = comparedBlock(tile, pass);

@@ -56,6 +56,11 @@ constexpr float kNeighbourSignificance = 2.0f;
 /// of its light in the first passes, and more later on.
 constexpr float kNoisyBlur = 0.08f;
 
+/// The blur of such discs stays, too, if it is a larger share of their light in a colour channel of
+/// a half: that is no blur of smooth light, but a caustic beside or in the tile, and what it adds
+/// is not spread as the light is.
+constexpr float kLargestBlur = 0.25f;
+
 /// Discs that are no larger than so many footprints are given up, in tiles whose discs leak and in
 /// others. As large as one, they have the noise of the footprint, and blur besides.
 constexpr float kSmallBesideCaustics = 3.0f, kSmallElsewhere = 1.0f;
@@ -135,6 +140,7 @@ void TileLookups::addBlur(int pass, const GatheredPhotons& gathered)
     _blur[pass & 1] += gathered.blur * counted;
     _blurred[pass & 1] += gathered.blurred * counted;
     const float blur = luminance(gathered.blur);
+    _blurLight += luminance(gathered.blurred);
     _blurSum += blur;
     _blurSquares += blur * blur;
     ++_blurPasses;
@@ -142,11 +148,13 @@ void TileLookups::addBlur(int pass, const GatheredPhotons& gathered)
 
 bool TileLookups::takesBlur() const
 {
-    const float light = luminance(_blurred[0] + _blurred[1]);
-    if (_blurPasses < 2 || !(light > 0.0f)) return false;
+    if (_blurPasses < 2 || !(_blurLight > 0.0f)) return false;
+    for (int half = 0; half < 2; ++half)
+        for (int c = 0; c < 3; ++c)
+            if (std::fabs(_blur[half][c]) > kLargestBlur * _blurred[half][c]) return false;
     const auto passes = static_cast<float>(_blurPasses);
     const float mean = _blurSum / passes, variance = _blurSquares / passes - mean * mean;
-    return std::sqrt(variance) < kNoisyBlur * light / passes;
+    return std::sqrt(std::max(variance, 0.0f)) < kNoisyBlur * _blurLight / passes;
 }
 
 void TileLookups::beginBlur(int pass, GatheredPhotons& gathered) const

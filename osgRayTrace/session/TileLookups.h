@@ -92,9 +92,9 @@ private:
     /// What discs without footprints have blurred in the even and the odd passes that may choose,
     /// and their light [radiance, summed over the tile].
     Vec3 _blur[2] = {Vec3(0.0f), Vec3(0.0f)}, _blurred[2] = {Vec3(0.0f), Vec3(0.0f)};
-    /// Of these passes: sums over them of the blur's luminance, of its square, and how many there
-    /// are.
-    float _blurSum = 0.0f, _blurSquares = 0.0f;
+    /// Of these passes: sums over them of the luminance of the light, of that of the blur and of
+    /// its square, each pass once, and how many there are.
+    float _blurLight = 0.0f, _blurSum = 0.0f, _blurSquares = 0.0f;
     int _blurPasses = 0;
     bool _leaks = false;       ///< true: the discs of the pixels that still compare leak
     float _alpha = 1.0f;       ///< of the radius schedule

@@ -116,7 +116,7 @@ OSGRAYTRACE_INLINE float importance(const LightNode& node, PlainVec3 p, PlainVec
     const float centre2 = dot(d, d), centre = std::sqrt(centre2);
     const float mean2 = atLeast(centre2 + (1.0f / 3.0f) * (node.radius * node.radius), 1e-30f);
     const float perDistance = 1.0f / std::sqrt(clearance2(d, half, node.radius));
-    const float rounding = -kGrazing * (centre + node.radius);
+    const float rounding = -kGrazing * (centre + node.radius) - 1e-30f; // never -0: isLess()
 
     const float signedAlong = -dot(d, axis);
     const float along = select(signMask(node.intensity), std::fabs(signedAlong), signedAlong);

@@ -35,8 +35,8 @@ OSGRAYTRACE_INLINE uint32_t takeNode(float share, uint32_t first, uint32_t secon
     return isOpen(at[i]);
 }
 
-/// Sets the probabilities of the first node of one pair. All lanes read the same nodes: unlike a
-/// step of descend nothing is gathered, which is most of its time.
+/// Sets the probabilities of the first node of one pair. All lanes read the same nodes:
+/// unlike in step(), which spends half of its time on that, nothing is read lane by lane.
 OSGRAYTRACE_KERNEL
 void setShares(const LightNode* pair, const Vec3Lanes& p, const Vec3Lanes& normal,
                FloatLanes& shares)

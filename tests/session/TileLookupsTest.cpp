@@ -293,27 +293,29 @@ TEST_CASE("tile lookups: what discs without footprints blur leaves the image unl
           "[session]")
 {
     const float noise = GENERATE(0.02f, 0.5f); // of the light, with either sign
-    constexpr float kBlur = 0.1f, kLight = 4.0f;
+    const float blur = GENERATE(0.1f, -0.1f, 1.2f);
+    constexpr float kLight = 4.0f;
+    const bool isTaken = noise < 0.1f && blur < 1.0f; // more than a quarter is no smooth light
     TileLookups lookups;
     double left[2] = {}; // of blur, in each half
     for (int pass = 0; pass < 64; ++pass)
     {
         const auto gathered = gatheredIn(pass);
         lookups.beginBlur(pass, *gathered);
-        CAPTURE(noise, pass);
-        REQUIRE(gathered->wantsBlur == (pass < kChoosingPasses || noise < 0.1f));
-        REQUIRE(gathered->takesBlur == (pass >= kChoosingPasses && noise < 0.1f));
+        CAPTURE(noise, blur, pass);
+        REQUIRE(gathered->wantsBlur == (pass < kChoosingPasses || isTaken));
+        REQUIRE(gathered->takesBlur == (pass >= kChoosingPasses && isTaken));
         const float sign = pass / 2 % 2 ? -1.0f : 1.0f;
         gathered->blurred = Vec3(kLight);
-        gathered->blur = Vec3(kBlur + sign * noise * kLight);
-        left[pass & 1] += double(kBlur);
+        gathered->blur = Vec3(blur + sign * noise * kLight);
+        left[pass & 1] += double(blur);
         if (gathered->takesBlur)
-            left[pass & 1] -= double(kBlur) + double(gathered->earlierBlur.y * kLight);
+            left[pass & 1] -= double(blur) + double(gathered->earlierBlur.y * kLight);
         TileRgba rgba = {};
         lookups.finish(pass, 1, kAlpha, *gathered, rgba);
     }
     for (const double half : left)
-        CHECK(half == Approx(noise < 0.1f ? 0.0 : 32.0 * double(kBlur)).margin(1e-5));
+        CHECK(half == Approx(isTaken ? 0.0 : 32.0 * double(blur)).margin(1e-5));
 }
 
 TEST_CASE("tile lookups: discs are given up once they are as small as footprints", "[session]")

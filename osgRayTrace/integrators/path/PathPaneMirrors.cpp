@@ -11,8 +11,9 @@
 //   L_z = f cosTheta R L(omega) V / p_sky(omega)
 //
 // The image has the density of the sample, as mirrors keep solid angles. Paths that leave z, meet
-// the pane in the same way, and then the sky, add nothing where p_sky(omega) is not 0. Where it is
-// 0, samples of the sky leave a direction that is not brighter than its mean to paths.
+// the pane in the same way, and then the sky, add nothing where samples do. These take the sun and
+// what is about as bright, kLeastPdfW: no other technique weighs L / p_sky, which has no bound
+// where the density, that of what exceeds the sky's mean, goes towards 0.
 #include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/path/PathBounce.h"
 #include "osgRayTrace/integrators/shared/EnvironmentLanes.h"
@@ -32,6 +33,10 @@ namespace
 
 constexpr float kFlat = 1.0f - 1e-6f; ///< least cosine between normals that differ by rounding only
 
+/// The least density of directions that are sampled [1/sr]. Paths find all others: they are not so
+/// much brighter than the mean that chance would be a bad way.
+constexpr float kLeastPdfW = 1.0f;
+
 /// The dimensions of a side's samples lie apart from those of bounces and other samples of the sky.
 constexpr uint32_t kMirrorDimension = 0x100000u;
 
@@ -40,12 +45,14 @@ Vec3 mirrored(Vec3 direction, Vec3 normal)
     return direction - normal * (2.0f * glm::dot(direction, normal));
 }
 
-/// Returns the lanes that sample what the panes of a side mirror.
+/// Returns the lanes that sample what the panes of a side mirror: not those of narrow lobes, as
+/// chance is the better way there.
 LaneMask lanesBefore(const Tile& tile, const Bounce& bounce, const PaneSide& side)
 {
     if (bounce.number + 2 > tile.context.options.maxBounces) return 0;
     LaneMask lanes = 0;
-    for (const int i : lanesIn(bounce.diffuse | (bounce.general & ~bounce.smooth)))
+    const LaneMask narrow = bounce.smooth | glossyLanes(bounce);
+    for (const int i : lanesIn(bounce.diffuse | (bounce.general & ~narrow)))
         lanes |= static_cast<LaneMask>(side.has(laneOf(bounce.surface.position, i))) << i;
     return lanes;
 }
@@ -121,7 +128,8 @@ void samplePaneMirrors(Tile& tile, PathBlock& block, const Bounce& bounce, const
         for (const int i : lanesIn(lanes))
         {
             const SkySample sky = sampleSky(context, environment, {u[i], v[i]}, false);
-            if (!(sky.pdfW > 0.0f) || !(glm::dot(sky.direction, sides[k].normal) > 0.0f)) continue;
+            if (!(sky.pdfW > kLeastPdfW) || !(glm::dot(sky.direction, sides[k].normal) > 0.0f))
+                continue;
             const Vec3 image = mirrored(sky.direction, sides[k].normal);
             const bool anySide = ((bounce.transmissive | bounce.surface.terminatorLanes) >> i) & 1u;
             if (!anySide && !(glm::dot(laneOf(bounce.surface.geometricNormal, i), image) > 0.0f))
@@ -157,7 +165,7 @@ PaneMarks paneMarks(const Tile& tile, const PathBlock& block, const Bounce& boun
             mirrored(directionOf(block.rays.ray, i), sides[static_cast<std::size_t>(side)].normal);
         const float pdfW =
             environmentPdfW(context, *context.traced->lights().shiningEnvironment(), towards);
-        marks.mirrored |= static_cast<LaneMask>(pdfW > 0.0f) << i;
+        marks.mirrored |= static_cast<LaneMask>(pdfW > kLeastPdfW) << i;
     }
     return marks;
 }

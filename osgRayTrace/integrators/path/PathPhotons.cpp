@@ -149,7 +149,7 @@ LaneMask blurredLanes(const Tile& tile, const PathBlock& block, const Bounce& bo
                       LaneMask lanes)
 {
     const GatheredPhotons& gathered = *tile.result.photons.gathered;
-    if (!gathered.wantsBlur) return 0;
+    if (!gathered.wantsBlur || !gathered.planes) return 0;
     if (bounce.number > 0 || bounce.below) return lanes;
     LaneMask result = lanes & bounce.collided;
     if (tile.context.photonUse != PhotonUse::Caustics) return result;

@@ -450,8 +450,11 @@ std::shared_ptr<const SkyPortals> findSkyPortals(const PassContext& context, Til
     }
     if (static_cast<float>(found) > kEasyToFind * static_cast<float>(sent)) return nullptr;
     const bool spots = lightsSpots(*context.traced);
+    const bool hasSun = context.options.environmentSampling == EnvironmentSampling::Importance &&
+                        !context.traced->lights().shiningEnvironment()->isEven();
     std::vector<PaneSide> panes;
-    if (spots && context.traced->traits().panes) panes = panesOf(context, rectangles, counts);
+    if (spots && hasSun && context.traced->traits().panes)
+        panes = panesOf(context, rectangles, counts);
     return std::make_shared<const SkyPortals>(std::move(rectangles), spots, std::move(panes));
 }
 
