@@ -54,6 +54,9 @@ build()
     shift
     if command -v ccache >/dev/null; then
         export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER:-ccache}
+        # What one checkout compiled serves another, and files with precompiled headers are cached, too.
+        export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$ROOT} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR:-1}
+        export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros}
     fi
     (cd "$ROOT" && cmake --preset "$preset" >/dev/null &&
         cmake --build --preset "$preset" ${1:+--target "$@"}) >&2

@@ -82,6 +82,7 @@ void Renderer::Implementation::render(engine::StopRule rule, double seconds,
     if (!shutter) showScene();
     engine::RenderOptions options = engine::renderOptionsFromSettings(*settings);
     options.moving = static_cast<bool>(shutter);
+    options.still = !options.moving;
     session->setOptions(options);
     session->setFirstPass(firstPass);
     // The session would forget the cancellation at its first pass.

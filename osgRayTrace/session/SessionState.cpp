@@ -273,12 +273,12 @@ PassContext SessionState::contextOfPass(int pass) const
 }
 
 /// Lets the pass know the openings to the sky. They are looked for when the first pass wants them:
-/// moving views, whose images have few passes, pay nothing for them.
+/// views that move, whose images have few passes, pay nothing for them.
 void SessionState::preparePortals(PassContext& context, int pass)
 {
-    constexpr int kFirstPass = 2; // that knows them
+    const int firstPass = filmOptions.still ? 0 : 2; // that knows them
     const SceneTraits& traits = context.traced->traits();
-    const bool wanted = pass >= kFirstPass && progress.integrator == IntegratorKind::Path &&
+    const bool wanted = pass >= firstPass && progress.integrator == IntegratorKind::Path &&
                         context.photonUse == PhotonUse::None &&
                         context.traced->lights().shiningEnvironment() && !context.strata &&
                         !traits.media && context.options.shadows && !filmOptions.moving;

@@ -48,6 +48,8 @@ TEST_CASE("sample models: traced and rasterized pictures", "[gl][osg-data]")
             if (what.rfind("converted", 0) != 0)
                 std::cout << "    " << what << ' ' << count << '\n';
         CAPTURE(name, pair.difference);
-        CHECK(pair.difference < 2.0);
+        // What OpenGL draws of vertices behind the end of an array depends on the memory there.
+        if (pair.statistics.conversion.count("skipped.index-out-of-range") == 0)
+            CHECK(pair.difference < 2.0);
     }
 }

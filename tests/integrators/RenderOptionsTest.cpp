@@ -13,9 +13,9 @@ TEST_CASE("render options: what changes the image restarts it", "[integrators]")
     const RenderOptions before;
     // A new option does not compile here: it gets a line below.
     const auto& [o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12, o13, o14, o15, o16, o17, o18,
-                 o19, o20] = before;
+                 o19, o20, o21] = before;
     const auto options = std::tie(o1, o2, o3, o4, o5, o6, o7, o8, o9, o10, o11, o12, o13, o14, o15,
-                                  o16, o17, o18, o19, o20);
+                                  o16, o17, o18, o19, o20, o21);
     CHECK(std::tuple_size<decltype(options)>::value ==
           std::tuple_size<decltype(before.restarting())>::value);
     CHECK_FALSE(before.needsRestart(before));
@@ -36,6 +36,7 @@ TEST_CASE("render options: what changes the image restarts it", "[integrators]")
     CHECK(restarts([](RenderOptions& o) { o.terminatorCorrection = false; }));
     CHECK(restarts([](RenderOptions& o) { o.photonGuiding = false; }));
     CHECK(restarts([](RenderOptions& o) { o.centredFirstPass = true; }));
+    CHECK(restarts([](RenderOptions& o) { o.still = true; }));
     CHECK(restarts([](RenderOptions& o) { o.moving = true; }));
     CHECK(restarts([](RenderOptions& o) { o.aperture = 1.0f; }));
     CHECK(restarts([](RenderOptions& o) { o.focus = 1.0f; }));

@@ -84,6 +84,7 @@ std::unique_ptr<RenderSession> newSession(const PreparedScene& scene, const Meth
     auto session = std::make_unique<RenderSession>(scene.workers);
     RenderOptions options = method.options;
     options.seed = seed;
+    options.still = true;
     session->setScene(scene.traced);
     session->setView(scene.view);
     session->setOptions(options);

@@ -71,6 +71,9 @@ struct RenderOptions
     /// True: passes show the scene at moments of their own, so that they learn from each other
     /// nothing that holds for a moment alone.
     bool moving = false;
+    /// True: the image gets many passes, so that what helps all of them is prepared before the
+    /// first one. False: the first passes are shown at once.
+    bool still = false;
     float aperture = 0.0f; ///< diameter of the lens of perspective views [length]; 0: a pinhole
     float focus = 0.0f; ///< distance that is seen sharp [length]; 0: that of what is straight ahead
     uint32_t seed = 0;
@@ -87,8 +90,8 @@ struct RenderOptions
     {
         return std::tie(integrator, lightSampling, debugChannel, lightSamples, environmentSampling,
                         environmentSamples, maxBounces, shadows, terminatorCorrection,
-                        centredFirstPass, moving, aperture, focus, seed, photons, photonRadius,
-                        photonAlpha, radiusSchedule, photonBeams, photonGuiding);
+                        centredFirstPass, moving, still, aperture, focus, seed, photons,
+                        photonRadius, photonAlpha, radiusSchedule, photonBeams, photonGuiding);
     }
 
     /// Returns true if an accumulated image made with previous cannot be continued with *this.
