@@ -1,20 +1,13 @@
 // SkyPortalsTest.cpp - openings to the sky: densities by quadrature, where they are found, means
 // beside surfaces that know none, noise, threads.
 // SPDX-License-Identifier: MIT
-#include "osgRayTrace/integrators/IntegratorFactory.h"
-#include "osgRayTrace/integrators/shared/SkyPortalFinder.h"
-#include "tests/integrators/MediaScenes.h"
+#include "tests/integrators/SkyRoom.h"
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
 namespace
 {
-
-RectangleLight rectangle(Vec3 corner, Vec3 edgeU, Vec3 edgeV)
-{
-    return rectangleLight(plainOf(corner), plainOf(edgeU), plainOf(edgeV));
-}
 
 /// Returns a window in the plane x = 2 and one in the plane y = 3.
 SkyPortals twoWindows()
@@ -37,89 +30,6 @@ template <class F> void forSphere(F f)
         }
 }
 
-/// A box of 4 x 5 x 3 with openings, turned and moved.
-struct Room
-{
-    SceneBuilder builder;
-    Mat3 turn{1.0f};
-    Material material = lambert(Vec3(0.6f));
-
-    void wall(Vec3 corner, Vec3 u, Vec3 v)
-    {
-        builder.add(quadMesh(turn * corner, turn * u, turn * v), material);
-    }
-
-    /// Adds the wall in the plane x = at, with an opening of 1 x 1 if it has one.
-    void sideWall(float at, bool open)
-    {
-        if (!open) return wall({at, 0, 0}, {0, 5, 0}, {0, 0, 3});
-        wall({at, 0, 0}, {0, 2, 0}, {0, 0, 3});
-        wall({at, 3, 0}, {0, 2, 0}, {0, 0, 3});
-        wall({at, 2, 0}, {0, 1, 0}, {0, 0, 1});
-        wall({at, 2, 2}, {0, 1, 0}, {0, 0, 1});
-    }
-
-    /// Adds all walls but the one on the right.
-    void buildHall(bool left)
-    {
-        wall({0, 0, 0}, {4, 0, 0}, {0, 5, 0});
-        wall({0, 0, 3}, {4, 0, 0}, {0, 5, 0});
-        wall({0, 0, 0}, {4, 0, 0}, {0, 0, 3});
-        wall({0, 5, 0}, {4, 0, 0}, {0, 0, 3});
-        sideWall(0, left);
-    }
-
-    void build(bool left, bool right)
-    {
-        buildHall(left);
-        sideWall(4, right);
-    }
-
-    /// Adds a sky with a sun of 20 times its light, which shines through the right opening.
-    void addSunnySky(float sun = 3000.0f)
-    {
-        Light sky;
-        sky.kind = LightKind::Environment;
-        sky.radiance = Vec3(1.0f);
-        auto image = newEnvironment(64, 32, Vec3(1.0f));
-        const EnvironmentMap map(image);
-        const Vec3d towards = glm::normalize(Vec3d(turn * Vec3(1.0f, 0.1f, 0.6f)));
-        int x = 0, y = 0;
-        double best = -1.0;
-        for (int row = 0; row < 32; ++row)
-            for (int column = 0; column < 64; ++column)
-            {
-                const double cosine = glm::dot(map.direction(column + 0.5, row + 0.5), towards);
-                if (cosine > best) x = column, y = row;
-                best = std::max(best, cosine);
-            }
-        pixelOf(*image, x, y) = Vec3(sun);
-        sky.environment.image = image;
-        builder.addLight(sky);
-    }
-
-    View view(int width, int height) const
-    {
-        const auto at = [this](Vec3 p) { return Vec3d(turn * p); };
-        return perspectiveView(at({1, 0.4f, 1.6f}), at({2.2f, 4, 1}), at({0, 0, 1}), 60.0, width,
-                               height);
-    }
-};
-
-PassContext contextOf(const TracedScene& traced, const View& view, int maxBounces = 8)
-{
-    PassContext context;
-    context.traced = &traced;
-    context.lights = &traced.scene().lights;
-    context.camera = *cameraRays(view, traced.scene().origin, traced.scene().unit);
-    context.width = view.width;
-    context.height = view.height;
-    const Vec3d eye(glm::inverse(view.viewFromWorld)[3]);
-    context.eye = Vec3((eye - traced.scene().origin) / traced.scene().unit);
-    context.options = optionsOf(IntegratorKind::Path, maxBounces);
-    return context;
-}
-
 std::shared_ptr<const SkyPortals> portalsOf(const std::shared_ptr<const TracedScene>& traced,
                                             const View& view)
 {
@@ -127,34 +37,6 @@ std::shared_ptr<const SkyPortals> portalsOf(const std::shared_ptr<const TracedSc
     const auto portals = findSkyPortals(contextOf(*traced, view), counts);
     CHECK(counts.shadowRays > 0);
     return portals;
-}
-
-/// Returns the mean green radiance of a tile whose passes know these portals; null: none.
-Estimate meanWith(const TracedScene& traced, const View& view, const SkyPortals* portals,
-                  int passes)
-{
-    PassContext context = contextOf(traced, view, 4);
-    context.portals = portals;
-    const auto integrator = newIntegrator(IntegratorKind::Path);
-    Estimate estimate;
-    for (uint32_t seed = 0; seed < 16; ++seed)
-    {
-        double sum = 0.0;
-        for (int pass = 0; pass < passes; ++pass)
-        {
-            context.key = context.pathKey = passKey(seed, pass);
-            TileRgba rgba;
-            TileResult result;
-            result.rgba = rgba;
-            integrator->renderTile(context, 0, 0, result);
-            REQUIRE(result.counts.droppedSamples == 0);
-            for (const RgbaLanes& block : rgba)
-                for (int i = 0; i < kLanes; ++i)
-                    sum += double(block.g[i]) / (double(passes) * kTilePixels);
-        }
-        estimate.add(sum);
-    }
-    return estimate;
 }
 
 /// Returns the variance of pixels among eight seeds over the square of their mean, as a mean over
@@ -184,13 +66,6 @@ double pixelVariance(const std::shared_ptr<const TracedScene>& traced, RenderOpt
         variance += (squares[k] - sums[k] * mean) / (kSeeds - 1) / (mean * mean + 1e-6);
     }
     return variance / (double(sums.size()) / 4.0);
-}
-
-Mat3 turned()
-{
-    const Vec3 z = glm::normalize(Vec3(0.2f, -0.3f, 1.0f)),
-               x = glm::normalize(glm::cross(Vec3(0.5f, 1.0f, 0.0f), z));
-    return Mat3(x, glm::cross(z, x), z);
 }
 
 } // namespace
@@ -416,58 +291,6 @@ TEST_CASE("sky portals: the mean is the same wherever the rectangles stand",
         CHECK(std::abs(known.mean() - none.mean()) < 4.0 * error); // 6e-5 of all seeds fail
         CHECK(error < 0.015 * none.mean());
     }
-}
-
-TEST_CASE("sky portals: the mean behind a pane with a sill on both sides",
-          "[integrators][statistics]")
-{
-    Room room;
-    room.build(false, true);
-    room.wall({3.8f, 2, 1}, {0.6f, 0, 0}, {0, 1, 0});
-    Material pane = glass(1.5f);
-    MaterialDetail thin;
-    thin.thinWalled = true;
-    pane.detail = std::make_shared<MaterialDetail>(thin);
-    room.builder.add(quadMesh({4, 2, 1}, {0, 1, 0}, {0, 0, 1}), pane);
-    room.addSunnySky(1000.0f);
-    const auto traced = room.builder.build();
-    const View view = room.view(16, 16);
-    const SkyPortals portals({rectangle({4.4f, 1.9f, 0.9f}, {0, 1.2f, 0}, {0, 0, 1.4f})});
-    const Estimate none = meanWith(*traced, view, nullptr, 192);
-    const Estimate known = meanWith(*traced, view, &portals, 96);
-    const double error = std::hypot(none.standardError(), known.standardError());
-    CAPTURE(none.mean(), known.mean(), error);
-    CHECK(std::abs(known.mean() - none.mean()) < 4.0 * error); // 6e-5 of all seeds fail
-    CHECK(error < 0.015 * none.mean());
-}
-
-TEST_CASE("sky portals: panes mirror the sun to what stands outside", "[integrators][statistics]")
-{
-    Room room;
-    room.build(false, true);
-    room.wall({4, 1, 1}, {0.6f, 0, 0}, {0, 3, 0}); // a sill
-    Material pane = glass(1.5f);
-    MaterialDetail thin;
-    thin.thinWalled = true;
-    pane.detail = std::make_shared<MaterialDetail>(thin);
-    room.builder.add(quadMesh({4, 2, 1}, {0, 1, 0}, {0, 0, 1}), pane);
-    room.addSunnySky(20000.0f);
-    const auto traced = room.builder.build();
-    const View view = perspectiveView({7, 2.5, 4}, {4.2, 2.5, 1}, {0, 0, 1}, 12.0, 16, 16);
-    const std::vector<RectangleLight> rectangles = {rectangle({4, 2, 1}, {0, 1, 0}, {0, 0, 1})};
-    TileCounts counts;
-    const std::vector<PaneSide> sides = panesOf(contextOf(*traced, view), rectangles, counts);
-    REQUIRE(sides.size() == 1);
-    CHECK(sides[0].normal.x == Approx(1.0f));
-    CHECK(sides[0].has({4.1f, 0, 0}));
-    CHECK_FALSE(sides[0].has({3.9f, 0, 0}));
-    const SkyPortals without(rectangles), with(rectangles, true, sides);
-    const Estimate chance = meanWith(*traced, view, &without, 192);
-    const Estimate known = meanWith(*traced, view, &with, 96);
-    const double error = std::hypot(chance.standardError(), known.standardError());
-    CAPTURE(chance.mean(), chance.standardError(), known.mean(), known.standardError());
-    CHECK(std::abs(known.mean() - chance.mean()) < 4.0 * error); // 6e-5 of all seeds fail
-    CHECK(known.standardError() < 0.5 * chance.standardError());
 }
 
 TEST_CASE("sky portals: pictures are equal for any number of threads", "[integrators]")

@@ -4,6 +4,7 @@
 #include "tests/Catch.h"
 #include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
+#include "tests/shading/TwoPicks.h"
 
 #include <cstring>
 
@@ -174,14 +175,9 @@ TEST_CASE("mesh light tree: probabilities sum to 1, and choices have them", "[sh
         }
         for (int draw = 0; draw < 2 * kDraws; draw += kLanes)
         {
-            // Of two picks at once.
-            SceneLightTree::Pick picks[2];
-            for (SceneLightTree::Pick& pick : picks)
-                for (int i = 0; i < kLanes; ++i)
-                    pick.u[i] = random();
-            tree.chooseLanes(p, normal, picks, 2);
-            const UintLanes& emitters = picks[draw / kLanes % 2].emitters;
-            const FloatLanes& pmf = picks[draw / kLanes % 2].pmf;
+            const SceneLightTree::Pick pick = pickOf(tree, p, normal, draw / kLanes, random);
+            const UintLanes& emitters = pick.emitters;
+            const FloatLanes& pmf = pick.pmf;
             SceneLightTree::Gathered gathered;
             tree.gather(emitters, gathered);
             for (int i = 1; i < kLanes; i += 2)

@@ -103,7 +103,7 @@ void checkShares(const Coverage& coverage)
     checkShare(coverage.share95(), 0.95, coverage.trials);
 }
 
-/// A session that renders the same view with one seed after the other.
+/// A session that renders the same view with one seed after the other, some passes and then more.
 class SeededSession
 {
 public:
@@ -115,10 +115,15 @@ public:
         _session.setView(view);
     }
 
-    const RenderSession& render(uint32_t seed, int passes)
+    void begin(uint32_t seed)
     {
         _options.seed = seed;
         _session.setOptions(_options);
+    }
+
+    /// Makes what the seed lacks of some passes.
+    const RenderSession& renderTo(int passes)
+    {
         StopRule rule;
         rule.passes = passes;
         REQUIRE(_session.render(rule).passes == passes);
@@ -132,25 +137,34 @@ private:
 
 constexpr uint32_t kTrueSeed = 99999;
 
+/// Checks the intervals after some numbers of passes, the largest last.
 void checkCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                   const RenderOptions& options, int passes)
+                   const RenderOptions& options, const std::vector<int>& passes)
 {
     SeededSession session(traced, view, options);
-    const std::vector<Interval> truth = tileIntervals(session.render(kTrueSeed, 128 * passes));
+    session.begin(kTrueSeed);
+    const std::vector<Interval> truth = tileIntervals(session.renderTo(128 * passes.back()));
 
-    Coverage tiles, whole;
+    std::vector<Coverage> tiles(passes.size()), whole(passes.size());
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const std::vector<Interval> intervals = tileIntervals(session.render(seed, passes));
-        for (std::size_t i = 0; i < intervals.size(); ++i)
-            if (intervals[i].variance > 0.0) tiles.add(intervals[i], truth[i]);
-        whole.add(wholeOf(intervals), wholeOf(truth));
+        session.begin(seed);
+        for (std::size_t k = 0; k < passes.size(); ++k)
+        {
+            const std::vector<Interval> intervals = tileIntervals(session.renderTo(passes[k]));
+            for (std::size_t i = 0; i < intervals.size(); ++i)
+                if (intervals[i].variance > 0.0) tiles[k].add(intervals[i], truth[i]);
+            whole[k].add(wholeOf(intervals), wholeOf(truth));
+        }
     }
-    CAPTURE(passes, int(options.integrator), int(options.lightSampling), tiles.trials,
-            tiles.share68(), tiles.share95(), whole.share68(), whole.share95());
-    CHECK(tiles.trials > kSeeds * kTiles);
-    checkShares(tiles);
-    checkShares(whole);
+    for (std::size_t k = 0; k < passes.size(); ++k)
+    {
+        CAPTURE(passes[k], int(options.integrator), int(options.lightSampling), tiles[k].trials,
+                tiles[k].share68(), tiles[k].share95(), whole[k].share68(), whole[k].share95());
+        CHECK(tiles[k].trials > kSeeds * kTiles);
+        checkShares(tiles[k]);
+        checkShares(whole[k]);
+    }
 }
 
 /// The green of one pixel of each tile: pixels of different tiles have camera paths of their own,
@@ -176,45 +190,57 @@ std::vector<PixelEstimate> pixelEstimates(const RenderSession& session)
 
 /// Checks the intervals of single pixels: the two halves of a pixel give one degree of freedom.
 void checkPixelCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                        const RenderOptions& options, int passes)
+                        const RenderOptions& options, const std::vector<int>& passes)
 {
     SeededSession session(traced, view, options);
-    const std::vector<PixelEstimate> truth =
-        pixelEstimates(session.render(kTrueSeed, 128 * passes));
+    session.begin(kTrueSeed);
+    const std::vector<PixelEstimate> truth = pixelEstimates(session.renderTo(128 * passes.back()));
 
-    Coverage coverage;
+    std::vector<Coverage> coverage(passes.size());
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const std::vector<PixelEstimate> pixels = pixelEstimates(session.render(seed, passes));
-        for (std::size_t i = 0; i < pixels.size(); ++i)
-            coverage.add((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
+        session.begin(seed);
+        for (std::size_t k = 0; k < passes.size(); ++k)
+        {
+            const std::vector<PixelEstimate> pixels = pixelEstimates(session.renderTo(passes[k]));
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                coverage[k].add((pixels[i].mean - truth[i].mean) / pixels[i].error, 1.0);
+        }
     }
-    CAPTURE(passes, int(options.integrator), coverage.trials);
-    checkShares(coverage);
+    for (std::size_t k = 0; k < passes.size(); ++k)
+    {
+        CAPTURE(passes[k], int(options.integrator), coverage[k].trials);
+        checkShares(coverage[k]);
+    }
 }
 
-/// Checks integrators with photons: the truth is the expectation of the image after this many
+/// Checks integrators with photons: the truth is the expectation of the image after that many
 /// passes, taken as the mean over all seeds. The halves of an image cannot tell how far it is from
 /// the light itself, because photons are looked up in discs.
 void checkPhotonCoverage(const std::shared_ptr<const TracedScene>& traced, const View& view,
-                         const RenderOptions& options, int passes)
+                         const RenderOptions& options, const std::vector<int>& passes)
 {
     SeededSession session(traced, view, options);
-    std::vector<std::vector<PixelEstimate>> seeds;
-    std::vector<double> truth(kTiles * kTiles, 0.0);
+    std::vector<std::vector<std::vector<PixelEstimate>>> seeds(passes.size());
     for (uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        seeds.push_back(pixelEstimates(session.render(seed, passes)));
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            truth[i] += seeds.back()[i].mean / kSeeds;
+        session.begin(seed);
+        for (std::size_t k = 0; k < passes.size(); ++k)
+            seeds[k].push_back(pixelEstimates(session.renderTo(passes[k])));
     }
-
-    Coverage coverage;
-    for (const std::vector<PixelEstimate>& pixels : seeds)
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            coverage.add((pixels[i].mean - truth[i]) / pixels[i].error, 1.0);
-    CAPTURE(passes, int(options.integrator), coverage.trials);
-    checkShares(coverage);
+    for (std::size_t k = 0; k < passes.size(); ++k)
+    {
+        std::vector<double> truth(kTiles * kTiles, 0.0);
+        for (const std::vector<PixelEstimate>& pixels : seeds[k])
+            for (std::size_t i = 0; i < truth.size(); ++i)
+                truth[i] += pixels[i].mean / kSeeds;
+        Coverage coverage;
+        for (const std::vector<PixelEstimate>& pixels : seeds[k])
+            for (std::size_t i = 0; i < truth.size(); ++i)
+                coverage.add((pixels[i].mean - truth[i]) / pixels[i].error, 1.0);
+        CAPTURE(passes[k], int(options.integrator), coverage.trials);
+        checkShares(coverage);
+    }
 }
 
 View withoutLight()
@@ -242,16 +268,14 @@ SceneBuilder boxWithoutReuse()
 TEST_CASE("coverage: path tracing with Sobol points", "[statistics]")
 {
     // Pixels of a tile share paths: the error of each pixel is known, but not that of their sum.
-    for (const int passes : {4, 5, 16})
-        checkPixelCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
-                           passes);
+    checkPixelCoverage(cornellBox().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+                       {4, 5, 16});
 }
 
 TEST_CASE("coverage: path tracing whose pixels share nothing", "[statistics]")
 {
-    for (const int passes : {4, 5, 16})
-        checkCoverage(boxWithoutReuse().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
-                      passes);
+    checkCoverage(boxWithoutReuse().build(), withoutLight(), optionsOf(IntegratorKind::Path, 4),
+                  {4, 5, 16});
 }
 
 TEST_CASE("coverage: photons, seen by paths that glossy surfaces spread", "[statistics]")
@@ -267,8 +291,7 @@ TEST_CASE("coverage: photons, seen by paths that glossy surfaces spread", "[stat
     {
         RenderOptions options = optionsOf(kind, 4);
         options.photons = 3000;
-        for (const int passes : {4, 5, 16, 40})
-            checkPhotonCoverage(traced, withoutLight(), options, passes);
+        checkPhotonCoverage(traced, withoutLight(), options, {4, 5, 16, 40});
     }
 }
 
@@ -276,8 +299,7 @@ TEST_CASE("coverage: Whitted's ray tracer with Sobol points", "[statistics]")
 {
     RenderOptions options = optionsOf(IntegratorKind::Whitted);
     options.lightSamples = 1;
-    for (const int passes : {4, 9, 32})
-        checkCoverage(cornellBox().build(), withoutLight(), options, passes);
+    checkCoverage(cornellBox().build(), withoutLight(), options, {4, 9, 32});
 }
 
 TEST_CASE("coverage: the other light strategies", "[statistics]")
@@ -287,7 +309,7 @@ TEST_CASE("coverage: the other light strategies", "[statistics]")
          {LightSampling::Random, LightSampling::UniformJitter, LightSampling::Stratified})
     {
         options.lightSampling = strategy;
-        checkCoverage(cornellBox().build(), withoutLight(), options, 8);
+        checkCoverage(cornellBox().build(), withoutLight(), options, {8});
     }
 }
 
@@ -296,7 +318,7 @@ TEST_CASE("coverage: with the light's edges in view", "[statistics]")
     // The few pixels along the edges make the error of their tile. Whitted's ray tracer has no
     // other noise there, so it takes more passes until this error is normally distributed.
     checkCoverage(boxWithoutReuse().build(), cornellView(kSize, kSize),
-                  optionsOf(IntegratorKind::Path, 4), 16);
+                  optionsOf(IntegratorKind::Path, 4), {16});
     checkCoverage(cornellBox().build(), cornellView(kSize, kSize),
-                  optionsOf(IntegratorKind::Whitted), 64);
+                  optionsOf(IntegratorKind::Whitted), {64});
 }
