@@ -31,6 +31,7 @@ Rendered render(const BenchScene& bench, const std::shared_ptr<const TracedScene
     RenderOptions options;
     options.integrator = IntegratorKind::Path;
     options.seed = seed;
+    options.still = true;
     session.setOptions(options);
     StopRule rule;
     rule.passes = kImagePasses;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/integrators/shared/Panes.h"
 
-#include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
 #include "osgRayTrace/sampling/Hash.h"
@@ -101,28 +100,30 @@ LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts
     return all;
 }
 
-LaneMask throughPanes(const PassContext& context, const RayBlock& shadow, LaneMask blocked,
-                      LightLanes& samples, TileCounts& counts)
+LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
+                             Coherence coherence)
 {
+    const RayBlock& shadow = samples.shadow;
     RayHitBlock rays;
     rays.ray = shadow;
-    LaneMask visible = 0;
-    for (int panes = 0; panes < kMostPanes && blocked; ++panes)
+    samples.tinted = 0;
+    LaneMask open = samples.lit, visible = 0;
+    for (int panes = 0; panes < kMostPanes && open; ++panes)
     {
-        context.traced->intersector().closestHits(rays, blocked, Coherence::Incoherent,
-                                                  kShadowRays);
-        counts.shadowRays += static_cast<uint64_t>(countLanes(blocked));
+        context.traced->intersector().closestHits(
+            rays, open, panes == 0 ? coherence : Coherence::Incoherent, kShadowRays);
+        counts.shadowRays += static_cast<uint64_t>(countLanes(open));
         SurfaceLanes surface;
-        surfacesOf(context.traced->surfaces(), rays, blocked, surface);
+        surfacesOf(context.traced->surfaces(), rays, open, surface);
         if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, rays, surface);
-        visible |= blocked & ~surface.hits;
-        blocked &= surface.hits;
-        for (const int i : lanesIn(blocked))
+        visible |= open & ~surface.hits;
+        open &= surface.hits;
+        for (const int i : lanesIn(open))
         {
             const Vec3 share = paneAt(context, rays, surface, i);
             if (share == Vec3(0.0f))
             {
-                blocked &= ~(1u << i);
+                open &= ~(1u << i);
                 continue;
             }
             for (int c = 0; c < 3; ++c)
@@ -134,7 +135,7 @@ LaneMask throughPanes(const PassContext& context, const RayBlock& shadow, LaneMa
             if (!(rays.ray.tNear[i] < rays.ray.tFar[i]))
             {
                 visible |= 1u << i;
-                blocked &= ~(1u << i);
+                open &= ~(1u << i);
             }
         }
     }

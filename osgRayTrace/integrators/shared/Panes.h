@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/HitRule.h"
+#include "osgRayTrace/accel/Intersector.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/LightLanes.h"
 
@@ -39,10 +40,11 @@ inline void dropStraightLobe(Bsdf& bsdf)
     if (bsdf.thin && bsdf.isSmooth()) bsdf.transmission = Vec3(0.0f);
 }
 
-/// Returns the lanes of blocked shadow rays that panes alone stand in the way of, and multiplies
-/// their radiance by the share that passes. shadow: the rays before they were found to be blocked.
-LaneMask throughPanes(const PassContext& context, const RayBlock& shadow, LaneMask blocked,
-                      LightLanes& samples, TileCounts& counts);
+/// Returns the lit lanes that see the light, straight or through panes alone, and multiplies their
+/// radiance by the share that passes. Each ray looks for what it meets first: to ask whether it
+/// meets anything costs as much, and those that do would have to be traced again.
+LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
+                             Coherence coherence);
 
 /// Multiplies throughput by what is left of light that has come through the bodies whose inner
 /// sides the rays met: exp(-absorption distance), Beer's law. A ray that ends at something within a

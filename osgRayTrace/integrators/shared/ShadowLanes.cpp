@@ -186,20 +186,6 @@ static LaneMask unoccluded(const RayBlock& shadow)
     return visible;
 }
 
-/// Returns the lanes that see the light, straight or through panes.
-static LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples,
-                                    TileCounts& counts, Coherence coherence)
-{
-    const RayBlock shadow = samples.shadow;
-    samples.tinted = 0;
-    context.traced->intersector().occlusion(samples.shadow, samples.lit, coherence);
-    counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
-    const LaneMask straight = unoccluded(samples.shadow) & samples.lit;
-    const LaneMask blocked = samples.lit & ~straight;
-    if (!blocked) return straight;
-    return straight | throughPanes(context, shadow, blocked, samples, counts);
-}
-
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
                       Coherence coherence)
 {
