@@ -13,7 +13,7 @@ namespace
 void addPane(Room& room, Vec3 color = Vec3(1.0f), float within = 0.0f)
 {
     Material pane = glass(1.5f);
-    pane.diffuse = Vec4(color, 1.0f);
+    pane.baseColor = color;
     MaterialDetail thin;
     thin.thinWalled = true;
     pane.detail = std::make_shared<MaterialDetail>(thin);
@@ -56,7 +56,8 @@ TEST_CASE("sky panes: the mean behind a pane with a sill on both sides",
     checkMeans(meanWith(*traced, view, nullptr, 192), meanWith(*traced, view, &portals, 96));
 }
 
-TEST_CASE("sky panes: the sun is mirrored to what stands outside", "[integrators][statistics]")
+TEST_CASE("sky panes: the sun is mirrored to what stands outside",
+          "[integrators][statistics][long]")
 {
     const std::vector<Sill> sills = {{"clear"},
                                      {"turned", turned()},
@@ -91,7 +92,7 @@ TEST_CASE("sky panes: the sun is mirrored to what stands outside", "[integrators
         CHECK(sides[0].has(room.turn * Vec3(4.1f, 0, 0)));
         CHECK_FALSE(sides[0].has(room.turn * Vec3(3.8f, 0, 0)));
         const SkyPortals without(rectangles), with(rectangles, true, sides);
-        const Estimate chance = meanWith(*traced, view, &without, 192);
+        const Estimate chance = meanWith(*traced, view, &without, 384);
         const Estimate known = meanWith(*traced, view, &with, 96);
         const double error = std::hypot(chance.standardError(), known.standardError());
         CAPTURE(chance.mean(), chance.standardError(), known.mean(), known.standardError());
