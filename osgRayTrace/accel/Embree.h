@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/accel/HitRule.h"
+#include "osgRayTrace/accel/PaneCrossings.h"
 #include "osgRayTrace/accel/RayBlock.h"
 
 // CMake defines OSGRAYTRACE_EMBREE: the headers of both versions may be there.
@@ -49,6 +50,7 @@ struct FilterContext : RayQueryContext
     const HitFilter* filter = nullptr;
     HitRule rule;
     bool coherent = false;
+    PaneCrossings* crossings = nullptr; ///< null: panes stop the rays as other surfaces do
 };
 
 /// Traces the rays of a callback through a part of the scene, coherently if the query is coherent.
@@ -103,11 +105,13 @@ template <int N> void tracePart(const RTCOccludedFunctionNArguments* args, RTCSc
 class QueryArguments
 {
 public:
-    QueryArguments(bool coherent, const HitFilter* filter, HitRule rule = {})
+    QueryArguments(bool coherent, const HitFilter* filter, HitRule rule = {},
+                   PaneCrossings* crossings = nullptr)
     {
         _context.filter = filter;
         _context.rule = rule;
         _context.coherent = coherent;
+        _context.crossings = crossings;
 #if OSGRAYTRACE_EMBREE == 4
         rtcInitRayQueryContext(&_context);
         rtcInitIntersectArguments(&_intersect);

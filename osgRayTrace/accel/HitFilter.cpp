@@ -1,4 +1,5 @@
-// HitFilter.cpp - surfaces that let some rays pass: alpha, alpha test, culled faces. Layer: accel.
+// HitFilter.cpp - surfaces that let some rays pass: alpha, alpha test, culled faces, panes. Layer:
+// accel.
 // SPDX-License-Identifier: MIT
 #include "osgRayTrace/accel/HitFilter.h"
 
@@ -36,28 +37,50 @@ bool passesFace(const Material& material, bool front, HitRule rule)
     return isCulled(material, front);
 }
 
+HitFilter::Candidate candidateOf(const RTCFilterFunctionNArguments* args, unsigned int i,
+                                 uint32_t instance)
+{
+    const unsigned int n = args->N;
+    HitFilter::Candidate c;
+    c.instance = instance;
+    c.primitive = RTCHitN_primID(args->hit, n, i);
+    c.u = RTCHitN_u(args->hit, n, i);
+    c.v = RTCHitN_v(args->hit, n, i);
+    c.origin = Vec3(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
+                    RTCRayN_org_z(args->ray, n, i));
+    c.direction = Vec3(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                       RTCRayN_dir_z(args->ray, n, i));
+    const Vec3 normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
+                      RTCHitN_Ng_z(args->hit, n, i));
+    c.front = glm::dot(normal, c.direction) < 0.0f;
+    return c;
+}
+
+PaneCrossing crossingOf(const RTCFilterFunctionNArguments* args, unsigned int i)
+{
+    const unsigned int n = args->N;
+    return {RTCRayN_tfar(args->ray, n, i),   RTCHitN_u(args->hit, n, i),
+            RTCHitN_v(args->hit, n, i),      RTCHitN_primID(args->hit, n, i),
+            RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0)};
+}
+
 /// Refuses the hits that do not stop their rays.
 void filter(const RTCFilterFunctionNArguments* args)
 {
     const auto& context = *static_cast<const FilterContext*>(args->context);
+    const HitFilter& hits = *context.filter;
     const unsigned int n = args->N;
     for (unsigned int i = 0; i < n; ++i)
     {
         if (args->valid[i] == 0) continue;
-        HitFilter::Candidate c;
-        c.instance =
+        const uint32_t instance =
             hitInstance(RTCHitN_geomID(args->hit, n, i), RTCHitN_instID(args->hit, n, i, 0));
-        c.primitive = RTCHitN_primID(args->hit, n, i);
-        c.u = RTCHitN_u(args->hit, n, i);
-        c.v = RTCHitN_v(args->hit, n, i);
-        c.origin = Vec3(RTCRayN_org_x(args->ray, n, i), RTCRayN_org_y(args->ray, n, i),
-                        RTCRayN_org_z(args->ray, n, i));
-        c.direction = Vec3(RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
-                           RTCRayN_dir_z(args->ray, n, i));
-        const Vec3 normal(RTCHitN_Ng_x(args->hit, n, i), RTCHitN_Ng_y(args->hit, n, i),
-                          RTCHitN_Ng_z(args->hit, n, i));
-        c.front = glm::dot(normal, c.direction) < 0.0f;
-        if (!context.filter->stops(c, context.rule)) args->valid[i] = 0;
+        const bool stops =
+            hits.isSolid(instance) || hits.stops(candidateOf(args, i, instance), context.rule);
+        const bool passesPane =
+            stops && context.crossings && hits.isPane(instance) &&
+            context.crossings->note(RTCRayN_id(args->ray, n, i), crossingOf(args, i));
+        if (!stops || passesPane) args->valid[i] = 0;
     }
 }
 
@@ -89,7 +112,7 @@ bool needsFilter(const MaterialRecord& record, bool masks)
 {
     const Material& material = *record.material;
     const bool transparent = material.blended || material.alphaTest != AlphaTest::Always;
-    if (record.interface) return true;
+    if (record.interface || record.pane) return true;
     return record.partial && (transparent || !masks || !isHiddenFromCamera(material));
 }
 

@@ -1,4 +1,5 @@
-// HitFilter.h - surfaces that let some rays pass: alpha, alpha test, culled faces. Layer: accel.
+// HitFilter.h - surfaces that let some rays pass: alpha, alpha test, culled faces, panes. Layer:
+// accel.
 // SPDX-License-Identifier: MIT
 #pragma once
 
@@ -34,6 +35,16 @@ public:
 
     bool stops(const Candidate& candidate, HitRule rule) const;
 
+    /// Returns whether all rays stop at the surface that are not told to pass panes.
+    bool isSolid(uint32_t instance) const
+    {
+        const MaterialRecord& record = _materials[_surfaces[instance].material];
+        return !record.partial && !record.interface;
+    }
+
+    /// Returns whether shadow rays may pass the surface as panes: see PaneCrossings.
+    bool isPane(uint32_t instance) const { return _materials[_surfaces[instance].material].pane; }
+
 private:
     const SurfaceTable& _surfaces;
     const MaterialTable& _materials;
@@ -41,7 +52,7 @@ private:
 
 /// Returns true if rays may pass a surface that their masks let them meet. If there are masks,
 /// camera rays never meet what is hidden from the camera, and all others do not pass it unless it
-/// is transparent as well.
+/// is transparent or a pane as well.
 bool needsFilter(const MaterialRecord& record, bool masks);
 
 /// Sets HitFilter as the filter of hits on the geometry, an RTCGeometry.

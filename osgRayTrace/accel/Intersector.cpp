@@ -58,8 +58,8 @@ LaneMask checkRays(const RayBlock& ray, float reach, LaneMask active, Lanes<int>
 /// a packet with idle lanes: in the Cornell box such packets take 2.6 times as long as filled ones.
 constexpr int kMostlyFull = 8;
 
-/// Sets filled to the rays of a block, with copies of ray number from in the lanes that are not
-/// valid.
+/// Sets filled to the rays of a block, with copies of ray number from, whose id is kInvalid, in the
+/// lanes that are not valid.
 OSGRAYTRACE_KERNEL
 void fillIdle(const RayBlock& ray, const Lanes<int>& valid, int from, RayBlock& filled)
 {
@@ -72,6 +72,7 @@ void fillIdle(const RayBlock& ray, const Lanes<int>& valid, int from, RayBlock& 
         setRay(filled, i, select(own, plainOrigin(ray, i), origin),
                select(own, plainDirection(ray, i), direction), select(own, ray.tNear[i], tNear),
                select(own, ray.tFar[i], tFar));
+        filled.id[i] = ray.id[i] | ~own;
     }
 }
 
@@ -192,9 +193,12 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tNear, float tFar, HitRule r
 
 RTCRay singleRay(const RayBlock& block, int lane, HitRule rule = {})
 {
-    return singleRay(Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
-                     Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
-                     block.tNear[lane], block.tFar[lane], rule);
+    RTCRay ray =
+        singleRay(Vec3(block.originX[lane], block.originY[lane], block.originZ[lane]),
+                  Vec3(block.directionX[lane], block.directionY[lane], block.directionZ[lane]),
+                  block.tNear[lane], block.tFar[lane], rule);
+    ray.id = static_cast<unsigned int>(lane); // by which PaneCrossings knows the lane
+    return ray;
 }
 
 } // namespace
@@ -245,7 +249,8 @@ void Intersector::query(RayHitBlock& block, const Lanes<int>& valid, LaneMask ac
     }
 }
 
-LaneMask Intersector::occlusion(RayBlock& block, LaneMask active, Coherence coherence) const
+LaneMask Intersector::occlusion(RayBlock& block, LaneMask active, Coherence coherence,
+                                PaneCrossings* crossings) const
 {
     OSGRAYTRACE_ASSERT(active <= kAllLanes);
     const auto scene = static_cast<RTCScene>(_scene);
@@ -254,7 +259,10 @@ LaneMask Intersector::occlusion(RayBlock& block, LaneMask active, Coherence cohe
 
     // The coherent flag is never set here: the flag makes occlusion packets slower, and with
     // instances Embree 3.13.5 may not return at all.
-    QueryArguments query(false, _filter, kShadowRays);
+    QueryArguments query(false, _filter, kShadowRays, crossings);
+    if (crossings)
+        for (int i = 0; i < kLanes; ++i)
+            block.id[i] = static_cast<uint32_t>(i);
     // Four shadow rays go different ways as soon as two do: on CPUs of that width shadow rays are
     // traced one by one, like other incoherent rays.
     const LaneMask traced = active & ~refused;

@@ -20,6 +20,7 @@ enum class Coherence
 };
 
 class HitFilter;
+class PaneCrossings;
 
 struct Hit
 {
@@ -46,9 +47,11 @@ public:
                          HitRule rule = {}) const;
 
     /// Sets tFar to -infinity in the active lanes that are occluded. Returns the lanes whose ray
-    /// was refused; refused rays count as occluded.
+    /// was refused; refused rays count as occluded. Rays pass panes and keep there where they do if
+    /// crossings is not null; else panes stop them. Lanes of crossings->full() count as occluded.
     LaneMask occlusion(RayBlock& block, LaneMask active,
-                       Coherence coherence = Coherence::Incoherent) const;
+                       Coherence coherence = Coherence::Incoherent,
+                       PaneCrossings* crossings = nullptr) const;
 
     std::optional<Hit> closestHit(Vec3 origin, Vec3 direction, float tNear, float tFar,
                                   HitRule rule = {}) const;

@@ -160,7 +160,8 @@ TEST_CASE("few lights: a glossy plane shows what a quadrature finds", "[integrat
     }
 }
 
-TEST_CASE("few lights: together they give what they give one by one", "[integrators][statistics]")
+TEST_CASE("few lights: together they give what they give one by one",
+          "[integrators][statistics][long]")
 {
     for (const Way way : {Way::Clear, Way::Panes, Way::Media})
     {

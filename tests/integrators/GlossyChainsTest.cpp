@@ -84,7 +84,7 @@ Pictures pictures(const std::shared_ptr<const TracedScene>& traced, int passes)
 } // namespace
 
 TEST_CASE("glossy chains: further rays change the noise, and not the mean",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     for (const Lit light : {Lit::FewLamps, Lit::ManyLamps, Lit::Sky})
     {

@@ -180,7 +180,8 @@ TEST_CASE("light tree: lamps that have moved shine as in a scene of their own",
     CHECK(radiance.agrees(0.5 * irradianceOf(lamps) / M_PI, 2e-6));
 }
 
-TEST_CASE("light tree: paths agree with photons below a hundred lamps", "[integrators][statistics]")
+TEST_CASE("light tree: paths agree with photons below a hundred lamps",
+          "[integrators][statistics][long]")
 {
     // Light that has left a wall is sampled by the tree at later bounces of paths, and carried by
     // photons otherwise. Both take the light that comes straight from the tree.

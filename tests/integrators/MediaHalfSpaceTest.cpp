@@ -68,13 +68,13 @@ void checkReflectances(int pixels, int passes, double most)
 
 } // namespace
 
-TEST_CASE("media: the reflectance of a half-space", "[integrators][statistics][media]")
+TEST_CASE("media: the reflectance of a half-space", "[integrators][statistics][media][long]")
 {
     checkReflectances(16, 4, 5e-3);
 }
 
 TEST_CASE("media: a searchlight comes back around where it has entered",
-          "[integrators][statistics][media]")
+          "[integrators][statistics][media][long]")
 {
     // Light that goes the other way: what a ray along the normal finds of a white sky that lights a
     // circle around it is the share of a searchlight that comes back within the circle. Monte

@@ -86,7 +86,7 @@ std::shared_ptr<Mesh> tetrahedron()
 } // namespace
 
 TEST_CASE("media: what a body emits comes out, however it scatters and whatever its shape",
-          "[integrators][statistics][media]")
+          "[integrators][statistics][media][long]")
 {
     // The mean length of ways through a body that does not absorb is 4 V/S, whatever scatters in it
     // [Blanco03]; so the flux through all parallel projections is the emission per length times the

@@ -16,7 +16,7 @@ void addShiningWall(SceneBuilder& builder, float x)
 
 } // namespace
 
-TEST_CASE("media: reflectance and transmittance of slabs", "[integrators][statistics][media]")
+TEST_CASE("media: reflectance and transmittance of slabs", "[integrators][statistics][media][long]")
 {
     // Adding-doubling at a cosine of 0.5; four digits are safe.
     const struct

@@ -197,7 +197,7 @@ TEST_CASE("medium layer: light falls by Beer's law, and emission adds up", "[int
         }
 }
 
-TEST_CASE("medium layer: air light of lamps and suns", "[integrators][statistics][media]")
+TEST_CASE("medium layer: air light of lamps and suns", "[integrators][statistics][media][long]")
 {
     const Layer layer{1.7};
     const double sigmaT = 0.4, sigmaS = 0.3, radius = 60.0;
@@ -255,7 +255,7 @@ TEST_CASE("medium layer: air light of lamps and suns", "[integrators][statistics
 }
 
 TEST_CASE("medium layer: what does not absorb is not seen in a white sky",
-          "[integrators][statistics][media]")
+          "[integrators][statistics][media][long]")
 {
     SceneBuilder builder;
     setAtmosphere(builder, mediumOf(0.7f, 1.0f, 0.5f), 20.0f);

@@ -43,7 +43,7 @@ struct Sill
 } // namespace
 
 TEST_CASE("sky panes: the mean behind a pane with a sill on both sides",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     Room room;
     room.build(false, true);

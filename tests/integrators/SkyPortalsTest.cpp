@@ -219,7 +219,7 @@ TEST_CASE("sky portals: ground outside an opening does not hide it", "[integrato
 }
 
 TEST_CASE("sky portals: the mean of surfaces that know none, and much less noise",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     const auto built = [](bool air, float sun)
     {
@@ -269,7 +269,7 @@ TEST_CASE("sky portals: images that get many passes know them from the first one
 }
 
 TEST_CASE("sky portals: the mean is the same wherever the rectangles stand",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     Room room;
     room.build(false, true);

@@ -89,7 +89,7 @@ TEST_CASE("sky rays: an opening gives what Lambert's formula says", "[integrator
 }
 
 TEST_CASE("sky rays: the mean of surfaces that send none, and less noise",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     const View view = perspectiveView({0, -2, 0.5}, {0, 0, 0.2}, {0, 0, 1}, 50.0, 16, 16);
     for (const Sky sky : {Sky::Even, Sky::Sun})

@@ -9,7 +9,7 @@
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
 
-TEST_CASE("subsurface: photons bring what paths find", "[statistics][subsurface]")
+TEST_CASE("subsurface: photons bring what paths find", "[statistics][subsurface][long]")
 {
     // In the way of the lamp stands a mirror, so that there are caustics.
     const auto scene = [](float weight)
@@ -41,7 +41,7 @@ TEST_CASE("subsurface: photons bring what paths find", "[statistics][subsurface]
 }
 
 TEST_CASE("subsurface: photons bring the light that comes through a wall of wax",
-          "[statistics][subsurface]")
+          "[statistics][subsurface][long]")
 {
     // The lamp is behind the wall, which is wide, and the eye sees the floor before it.
     SceneBuilder builder;
@@ -67,7 +67,7 @@ TEST_CASE("subsurface: photons bring the light that comes through a wall of wax"
 }
 
 TEST_CASE("subsurface: photons are mirrored by brushed wax as paths are",
-          "[statistics][subsurface]")
+          "[statistics][subsurface][long]")
 {
     // Brushes that are slanted to the sheet's edges throw the lamp's light to one side of the wall.
     Material brushed = wax(Vec3(0.9f), Vec3(0.05f), 1.5f);

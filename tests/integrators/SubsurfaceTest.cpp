@@ -185,7 +185,8 @@ TEST_CASE("subsurface: a thick body has its colour", "[statistics][subsurface]")
     CHECK(albedoOfColor(bondAlbedo(0.99), 0.0) == Approx(0.9900).margin(0.0005));
 }
 
-TEST_CASE("subsurface: light leaves where that of a half-space does", "[statistics][subsurface]")
+TEST_CASE("subsurface: light leaves where that of a half-space does",
+          "[statistics][subsurface][long]")
 {
     const int walks = 60000;
     for (const float color : {0.45f, 0.83f})

@@ -154,7 +154,7 @@ TEST_CASE("subsurface textures: a white body is not seen in a white sky, whateve
 }
 
 TEST_CASE("subsurface textures: each half of a thick body has its own values",
-          "[statistics][subsurface]")
+          "[statistics][subsurface][long]")
 {
     // The seam is 20 away, 80 mean ways. Each half is what a block of one colour is.
     const Vec3 left(0.9f, 0.2f, 0.5f), right(0.3f, 0.9f, 0.05f);
@@ -209,7 +209,7 @@ TEST_CASE("subsurface textures: the radius is that of the place where light leav
 }
 
 TEST_CASE("subsurface textures: photons bring what paths find through a wall of two values",
-          "[statistics][subsurface]")
+          "[statistics][subsurface][long]")
 {
     const View view = patchView({0.0f, -1.0f, 0.0f}, {0, 0, 1}, 0.8, 16);
     const Material plain = wax(Vec3(1.0f), Vec3(0.2f, 0.15f, 0.1f), 1.4f);

@@ -96,7 +96,7 @@ TEST_CASE("volumes: no light is lost or gained in a white sky",
 }
 
 TEST_CASE("volumes: an even volume is a body of the same medium, in the light of all lights",
-          "[integrators][statistics][volumes]")
+          "[integrators][statistics][volumes][long]")
 {
     const Medium medium = mediumOf(2.0f, 0.8f, 0.3f);
     std::array<Estimate, 2> seen;
@@ -298,7 +298,7 @@ TEST_CASE("volumes: dense, empty and damaged ones are finite", "[integrators][vo
             for (const IntegratorKind integrator : {IntegratorKind::Path, IntegratorKind::Whitted})
             {
                 const Picture picture =
-                    render(builder.build(), alongX(16), optionsOf(integrator), 2);
+                    render(builder.build(), alongX(8), optionsOf(integrator), 2);
                 CAPTURE(scale, kind, int(integrator));
                 CHECK(picture.progress.droppedSamples == 0);
                 CHECK(picture.mean().y >= 0.0f);

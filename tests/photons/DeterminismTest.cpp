@@ -112,7 +112,7 @@ TEST_CASE("photon pictures: glossy casters, equal for 1, 2 and 16 threads, bit b
     }
 }
 
-TEST_CASE("photon map: ten million photons in one cell", "[photons][stability 42]")
+TEST_CASE("photon map: ten million photons in one cell", "[photons][stability 42][long]")
 {
     constexpr uint32_t kMany = 10000000;
     const Workers workers(2);

@@ -176,7 +176,7 @@ TEST_CASE("photon extremes: no path finds a point light inside of glass, photons
     }
 }
 
-TEST_CASE("photon extremes: a million lights of no power", "[photons]")
+TEST_CASE("photon extremes: a million lights of no power", "[photons][long]")
 {
     SceneBuilder builder = darkRoom();
     Light black = pointLight({0, 0, 1}, Vec3(0.0f));

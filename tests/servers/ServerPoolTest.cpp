@@ -298,7 +298,7 @@ TEST_CASE("servers: equal images with photons, guided to what is seen", "[server
         }
 }
 
-TEST_CASE("servers: equal images with photons that are sent through openings", "[servers]")
+TEST_CASE("servers: equal images with photons that are sent through openings", "[servers][long]")
 {
     const auto scene = rooms().build(1);
     const View view = viewOf(true, 48);

@@ -209,7 +209,8 @@ TEST_CASE("light tree: probabilities sum to 1 at 100,000 random points", "[shadi
     CHECK(worst < 1e-5);
 }
 
-TEST_CASE("light tree: choices have the probabilities that they claim", "[shading][statistics]")
+TEST_CASE("light tree: choices have the probabilities that they claim",
+          "[shading][statistics][long]")
 {
     // One by one and in lanes, at points with opaque and with transmitting surfaces. There is 1 %
     // of false alarms in all tests together (Sidak).
@@ -309,7 +310,7 @@ TEST_CASE("light tree: the variance in an open plane is that of its probabilitie
 }
 
 TEST_CASE("light tree: lights that have moved keep the shape, and the estimator its mean",
-          "[shading][statistics]")
+          "[shading][statistics][long]")
 {
     std::vector<Lamp> hanging = lamps(300, true, 9);
     const SceneBuilder before = sceneOf(hanging);

@@ -147,7 +147,8 @@ TEST_CASE("mesh light tree: triangles are where the scene has them", "[shading]"
     CHECK(wrong == 0);
 }
 
-TEST_CASE("mesh light tree: probabilities sum to 1, and choices have them", "[shading][statistics]")
+TEST_CASE("mesh light tree: probabilities sum to 1, and choices have them",
+          "[shading][statistics][long]")
 {
     // Frequencies of sums over 64 emitters: 1 % of false alarms in all tests together (Sidak).
     constexpr int kPoints = 6, kDraws = 1 << 16, kGroup = 64;
@@ -353,7 +354,7 @@ Comparison compare(const std::shared_ptr<const Mesh>& mesh, const Affine& place)
 } // namespace
 
 TEST_CASE("mesh light tree: choices are as good as those of a tree over triangles in the scene",
-          "[shading]")
+          "[shading][long]")
 {
     // If boxes are along the same axes in both spaces, the trees have the same shape, up to planes
     // that rounding moves. If not, both bound the same lights a little differently.

@@ -4,7 +4,10 @@
 
 #include "osgRayTrace/accel/MergeHits.h"
 #include "osgRayTrace/accel/NormalMaps.h"
+#include "osgRayTrace/accel/PaneCrossings.h"
+#include "osgRayTrace/integrators/shared/ShadowLanes.h"
 #include "osgRayTrace/sampling/Hash.h"
+#include "osgRayTrace/shading/PaneLanes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +68,94 @@ void meetBehind(const PassContext& context, const PaneRays& lanes, LaneMask pass
     mergeHits(behind, surface, passed, lanes.rays, lanes.surface);
 }
 
+/// Sets the shares of the light that passes the surfaces of the lanes straight; others are
+/// undefined.
+void paneShares(const PassContext& context, const RayHitBlock& hits, const SurfaceLanes& surface,
+                LaneMask lanes, Vec3Lanes& shares)
+{
+    const uint32_t material = surface.material[firstLane(lanes)];
+    bool alike = true;
+    for (const int i : lanesIn(lanes))
+        alike = alike && surface.material[i] == material;
+    const MaterialRecord& record = context.traced->materials()[material];
+    if (alike && record.pane && record.constant && isClearPane(record.front))
+    {
+        const RayBlock& ray = hits.ray;
+        const IncidentLanes incident{ray.directionX, ray.directionY, ray.directionZ,
+                                     surface.shadingNormal};
+        return clearPaneLanes(record.front, incident, shares);
+    }
+    for (const int i : lanesIn(lanes))
+        setLane(shares, i, paneAt(context, hits, surface, i));
+}
+
+/// Multiplies the light of the lanes by their shares. Returns the lanes that keep some.
+OSGRAYTRACE_KERNEL
+LaneMask multiplyLight(const Vec3Lanes& shares, LaneMask lanes, LightLanes& samples)
+{
+    const LaneMask tinted = samples.tinted;
+    FloatLanes &r = samples.radiance[0], &g = samples.radiance[1], &b = samples.radiance[2];
+    Vec3Lanes& tint = samples.tint;
+    LaneMask kept = 0;
+    OSGRAYTRACE_SIMD_OR(kept)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t use = laneBit(lanes, i), again = laneBit(tinted, i);
+        const float x = select(use, shares.x[i], 1.0f), y = select(use, shares.y[i], 1.0f),
+                    z = select(use, shares.z[i], 1.0f);
+        r[i] *= x;
+        g[i] *= y;
+        b[i] *= z;
+        tint.x[i] = select(again, tint.x[i], 1.0f) * x;
+        tint.y[i] = select(again, tint.y[i], 1.0f) * y;
+        tint.z[i] = select(again, tint.z[i], 1.0f) * z;
+        kept |= bitOfLane(use & maskOf(x + y + z > 0.0f), i);
+    }
+    samples.tinted = tinted | kept;
+    return kept;
+}
+
+/// Multiplies the light of the lanes by what the panes that their rays have met let through.
+/// Returns the lanes that keep some.
+LaneMask tintLight(const PassContext& context, const RayHitBlock& hits, LaneMask lanes,
+                   LightLanes& samples)
+{
+    SurfaceLanes surface;
+    surfacesOf(context.traced->surfaces(), hits, lanes, surface);
+    if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, hits, surface);
+    if (!surface.hits) return 0;
+    Vec3Lanes shares;
+    paneShares(context, hits, surface, surface.hits, shares);
+    return multiplyLight(shares, surface.hits, samples);
+}
+
+/// Returns the lanes that see the light through any number of panes, one query for each.
+LaneMask visibleBehindMore(const PassContext& context, LaneMask open, LightLanes& samples,
+                           TileCounts& counts)
+{
+    RayHitBlock rays;
+    rays.ray = samples.shadow;
+    LaneMask visible = 0;
+    for (int panes = 0; panes < kMostPanes && open; ++panes)
+    {
+        const LaneMask refused = context.traced->intersector().closestHits(
+            rays, open, Coherence::Incoherent, kShadowRays);
+        counts.shadowRays += static_cast<uint64_t>(countLanes(open));
+        LaneMask met = 0;
+        for (const int i : lanesIn(open & ~refused))
+            (rays.geometry[i] == kInvalid ? visible : met) |= 1u << i;
+        open = tintLight(context, rays, met, samples);
+        for (const int i : lanesIn(open))
+        {
+            goOnBehind(rays.ray, i, samples.shadow.tFar[i]);
+            if (rays.ray.tNear[i] < rays.ray.tFar[i]) continue;
+            visible |= 1u << i;
+            open &= ~(1u << i);
+        }
+    }
+    return visible;
+}
+
 } // namespace
 
 bool goesThroughPane(const PassContext& context, const RayHitBlock& rays,
@@ -103,43 +194,23 @@ LaneMask passPanes(const PassContext& context, const PaneRays& lanes, TileCounts
 LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
                              Coherence coherence)
 {
-    const RayBlock& shadow = samples.shadow;
-    RayHitBlock rays;
-    rays.ray = shadow;
+    const FloatLanes ends = samples.shadow.tFar;
+    PaneCrossings crossings;
+    context.traced->intersector().occlusion(samples.shadow, samples.lit, coherence, &crossings);
+    counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
     samples.tinted = 0;
-    LaneMask open = samples.lit, visible = 0;
-    for (int panes = 0; panes < kMostPanes && open; ++panes)
+    LaneMask visible = unoccludedLanes(samples.shadow) & samples.lit;
+    for (int k = 0; k < kMostCrossings; ++k)
     {
-        context.traced->intersector().closestHits(
-            rays, open, panes == 0 ? coherence : Coherence::Incoherent, kShadowRays);
-        counts.shadowRays += static_cast<uint64_t>(countLanes(open));
-        SurfaceLanes surface;
-        surfacesOf(context.traced->surfaces(), rays, open, surface);
-        if (context.traced->traits().normalMaps) applyNormalMaps(*context.traced, rays, surface);
-        visible |= open & ~surface.hits;
-        open &= surface.hits;
-        for (const int i : lanesIn(open))
-        {
-            const Vec3 share = paneAt(context, rays, surface, i);
-            if (share == Vec3(0.0f))
-            {
-                open &= ~(1u << i);
-                continue;
-            }
-            for (int c = 0; c < 3; ++c)
-                samples.radiance[c][i] *= share[c];
-            setLane(samples.tint, i,
-                    ((samples.tinted >> i) & 1u ? laneOf(samples.tint, i) : Vec3(1.0f)) * share);
-            samples.tinted |= 1u << i;
-            goOnBehind(rays.ray, i, shadow.tFar[i]);
-            if (!(rays.ray.tNear[i] < rays.ray.tFar[i]))
-            {
-                visible |= 1u << i;
-                open &= ~(1u << i);
-            }
-        }
+        const LaneMask passed = visible & crossings.beyond(k);
+        if (!passed) break;
+        RayHitBlock hits;
+        crossings.hits(k, samples.shadow, hits);
+        visible &= ~(passed & ~tintLight(context, hits, passed, samples));
     }
-    return visible;
+    const LaneMask more = crossings.full() & samples.lit;
+    samples.shadow.tFar = ends;
+    return more ? visible | visibleBehindMore(context, more, samples, counts) : visible;
 }
 
 LaneMask attenuate(const PassContext& context, const RayHitBlock& rays, const SurfaceLanes& surface,

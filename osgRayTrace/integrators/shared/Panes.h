@@ -41,8 +41,8 @@ inline void dropStraightLobe(Bsdf& bsdf)
 }
 
 /// Returns the lit lanes that see the light, straight or through panes alone, and multiplies their
-/// radiance by the share that passes. Each ray looks for what it meets first: to ask whether it
-/// meets anything costs as much, and those that do would have to be traced again.
+/// radiance by the share that passes. One query finds up to kMostCrossings panes of each ray; rays
+/// that meet more of them are traced again, from pane to pane.
 LaneMask visibleThroughPanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
                              Coherence coherence);
 

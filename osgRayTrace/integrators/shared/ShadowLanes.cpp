@@ -177,7 +177,7 @@ void deltaLightLanes(const PassContext& context, uint32_t index, const LightRece
 }
 
 OSGRAYTRACE_KERNEL
-static LaneMask unoccluded(const RayBlock& shadow)
+LaneMask unoccludedLanes(const RayBlock& shadow)
 {
     LaneMask visible = 0;
     OSGRAYTRACE_SIMD_OR(visible)
@@ -194,7 +194,7 @@ LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCount
         return visibleThroughPanes(context, samples, counts, coherence);
     context.traced->intersector().occlusion(samples.shadow, samples.lit, coherence);
     counts.shadowRays += static_cast<uint64_t>(countLanes(samples.lit));
-    return unoccluded(samples.shadow) & samples.lit;
+    return unoccludedLanes(samples.shadow) & samples.lit;
 }
 
 LaneMask visibleLanes(const PassContext& context, const Light& light, LightLanes& samples,

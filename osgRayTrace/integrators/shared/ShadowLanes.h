@@ -37,6 +37,9 @@ void deltaLightLanes(const PassContext& context, uint32_t light, const LightRece
 bool deltaLane(const PassContext& context, uint32_t light, const LightReceivers& receivers, int i,
                LightLanes& samples);
 
+/// Returns the lanes whose rays Intersector::occlusion found to meet nothing.
+LaneMask unoccludedLanes(const RayBlock& shadow);
+
 /// Returns the lanes of samples.lit that see the light, and counts their shadow rays.
 LaneMask visibleLanes(const PassContext& context, LightLanes& samples, TileCounts& counts,
                       Coherence coherence = Coherence::Incoherent);
