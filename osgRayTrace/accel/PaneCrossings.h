@@ -27,23 +27,22 @@ public:
     bool note(uint32_t lane, const PaneCrossing& crossing)
     {
         if (lane >= static_cast<uint32_t>(kLanes)) return true; // a copy that fills up a packet
-        const uint32_t count = _counts[lane];
-        for (uint32_t k = 0; k < count; ++k)
+        int k = 0;
+        for (; k < kMostCrossings && ((_beyond[k] >> lane) & 1u); ++k)
             if (isSame(_rounds[k], lane, crossing)) return true;
-        if (count == kMostCrossings)
+        if (k == kMostCrossings)
         {
             _full |= 1u << lane;
             return false;
         }
-        Round& round = _rounds[count];
+        Round& round = _rounds[k];
         round.t[lane] = crossing.t;
         round.u[lane] = crossing.u;
         round.v[lane] = crossing.v;
         round.primitive[lane] = crossing.primitive;
         round.geometry[lane] = crossing.geometry;
         round.instance[lane] = crossing.instance;
-        _counts[lane] = count + 1;
-        _beyond[count] |= 1u << lane;
+        _beyond[k] |= 1u << lane;
         return true;
     }
 
@@ -81,7 +80,6 @@ private:
                                                round.instance[lane] == crossing.instance);
     }
 
-    UintLanes _counts = {};
     LaneMask _beyond[kMostCrossings] = {};
     LaneMask _full = 0;
     Round _rounds[kMostCrossings];
