@@ -101,7 +101,7 @@ std::shared_ptr<const EmissiveAreas> emissiveAreas(const std::shared_ptr<const M
     result->low = all.low;
     result->high = all.high;
     if (!(sum > 0.0)) return result;
-    result->cumulative.resize(kept);
+    allocateLarge(result->cumulative, kept);
     forEachPart(workers, kept, kTrianglesAtOnce,
                 [&](std::size_t begin, std::size_t end)
                 {

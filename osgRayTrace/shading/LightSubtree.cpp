@@ -177,7 +177,7 @@ void setLeaves(const LightEmitter* emitters, uint32_t leaves, Columns& columns)
 
 } // namespace
 
-void LightSubtree::setTurns(const std::vector<uint32_t>& children)
+void LightSubtree::setTurns(const uint32_t* children)
 {
     OSGRAYTRACE_ASSERT(pairs > 0 && pairs <= kMostPairs);
     std::vector<uint16_t> heights(pairs);
@@ -215,7 +215,7 @@ void LightSubtree::setTurns(const std::vector<uint32_t>& children)
 }
 
 SubtreeBounds setNodes(const LightSubtree& subtree, const LightEmitter* emitters,
-                       const std::vector<uint32_t>& children, LightNode* nodes)
+                       const uint32_t* children, LightNode* nodes)
 {
     Columns columns(subtree);
     setLeaves(emitters + subtree.leaf, subtree.pairs + 1, columns);
@@ -223,7 +223,7 @@ SubtreeBounds setNodes(const LightSubtree& subtree, const LightEmitter* emitters
     const std::size_t node = 2 * std::size_t(subtree.pair);
     float* to = columns.data() + roundedUp(subtree.pairs + 1);
     for (std::size_t k = 0; k < subtree.turns.size(); k += kLanes, to += kLanes)
-        joinTurns(&subtree.turns[k], columns.data(), columns.stride(), to, children.data() + node,
+        joinTurns(&subtree.turns[k], columns.data(), columns.stride(), to, children + node,
                   nodes + node, spread);
     SubtreeBounds all{boundsOf(boundsAt(to - kLanes, columns.stride())), 0.0};
     for (const float sum : spread.v)

@@ -33,7 +33,7 @@ struct LightSubtree
     std::vector<LightTurn> turns;
 
     /// Sets the turns. children: LightPairs::children of the whole tree.
-    void setTurns(const std::vector<uint32_t>& children);
+    void setTurns(const uint32_t* children);
 };
 
 /// What is known of a subtree whose nodes are set.
@@ -45,6 +45,6 @@ struct SubtreeBounds
 
 /// Sets the nodes of a subtree. nodes, emitters, children: those of the whole tree.
 SubtreeBounds setNodes(const LightSubtree& subtree, const LightEmitter* emitters,
-                       const std::vector<uint32_t>& children, LightNode* nodes);
+                       const uint32_t* children, LightNode* nodes);
 
 } // namespace osgRayTrace::engine

@@ -108,7 +108,7 @@ LightTree::Joined LightTree::setSubtree(const LightSubtree& subtree, const Emitt
     for (uint32_t k = 0; k <= subtree.pairs; ++k)
         all.addLeaf(emitters[subtree.leaf + k]);
     const SubtreeBounds joined =
-        engine::setNodes(subtree, emitters, _pairs->children, _arrays.nodes.data());
+        engine::setNodes(subtree, emitters, _pairs->children.data(), _arrays.nodes.data());
     all.bounds = joined.bounds;
     all.spread = joined.spread;
     return all;

@@ -20,11 +20,11 @@ struct LightPairs
 {
     static constexpr uint32_t kLeaf = 0x80000000u;
 
-    std::vector<uint32_t> children;     ///< two for each pair; pair 0 is the root's
-    std::vector<uint32_t> order;        ///< the emitters in the order of the leaves
-    std::vector<uint32_t> numbers;      ///< by emitter: its leaf
-    std::vector<uint32_t> parents;      ///< by pair: the node above it; kInvalid at the root
-    std::vector<uint32_t> leafNodes;    ///< by leaf: its node
+    UnclearedArray<uint32_t> children;  ///< two for each pair; pair 0 is the root's
+    UnclearedArray<uint32_t> order;     ///< the emitters in the order of the leaves
+    UnclearedArray<uint32_t> numbers;   ///< by emitter: its leaf
+    UnclearedArray<uint32_t> parents;   ///< by pair: the node above it; kInvalid at the root
+    UnclearedArray<uint32_t> leafNodes; ///< by leaf: its node
     std::vector<LightSubtree> subtrees; ///< disjoint ones, which threads work on at once
     std::vector<uint32_t> top;          ///< the pairs above them, each after its parent
 };

@@ -10,6 +10,7 @@
 // The solid angle is that of the cap whose mean direction is as long as the mean of the normals,
 // widened by a right angle. The mean is a sum, unlike the cone of [Conty18], so that it costs
 // little to find for each of the planes.
+#include "osgRayTrace/shading/LightNodes.h"
 #include "osgRayTrace/shading/LightTree.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr int kBins = 12;
+constexpr uint32_t kBins = 12;
 
 /// A node with more emitters than this is parted across the longest axis alone.
 constexpr std::size_t kLongestAxisOnly = 4096;
@@ -32,48 +33,53 @@ constexpr int kMostUneven = 40;
 /// A node of no more emitters is one piece of work.
 constexpr std::size_t kMostInSubtree = LightSubtree::kMostPairs + 1;
 
-/// The part of an emitter's bounds that the build reads.
-struct BuildEmitter
-{
-    Vec3 low, high;
-    Vec3 flux; ///< intensity times normal; 0 for lights that shine to all sides
-    float intensity;
-    uint32_t index;
-
-    Vec3 centre() const { return 0.5f * (low + high); }
-};
-
+/// What the build reads of some emitters, in the widths of vectors. Of each four words x, y and z
+/// are used.
 struct Sums
 {
-    Vec3 low{kInfinity}, high{-kInfinity}, flux{0.0f};
-    float intensity = 0.0f;
+    /// The low corner of the box, and the negated high one: to join boxes is to take the least.
+    float box[8];
 
-    void add(Vec3 l, Vec3 h, Vec3 f, float i)
-    {
-        low = glm::min(low, l);
-        high = glm::max(high, h);
-        flux += f;
-        intensity += i;
-    }
-    void add(const Sums& o) { add(o.low, o.high, o.flux, o.intensity); }
+    /// Of intensity times normal, which is 0 for lights that shine to all sides; last the
+    /// intensity.
+    float flux[4];
 
-    float cost() const
+    OSGRAYTRACE_INLINE void add(const Sums& o)
     {
-        if (!(intensity > 0.0f)) return 0.0f;
-        const Vec3 d = high - low;
-        const float surface = d.x * d.y + d.y * d.z + d.z * d.x;
-        // The mean direction over a cap of half-angle o has length (1 + cos o) / 2; the light of a
-        // surface goes a right angle further.
-        const float mean = std::min(glm::length(flux) / intensity, 1.0f);
-        const float cosWide = -sineOf(2.0f * mean - 1.0f);
-        return intensity * surface * (1.0f - cosWide);
+        OSGRAYTRACE_SIMD
+        for (int k = 0; k < 8; ++k)
+            box[k] = o.box[k] < box[k] ? o.box[k] : box[k];
+        OSGRAYTRACE_SIMD
+        for (int k = 0; k < 4; ++k)
+            flux[k] += o.flux[k];
     }
+};
+
+constexpr Sums kNothing = {
+    {kInfinity, kInfinity, kInfinity, 0.0f, kInfinity, kInfinity, kInfinity, 0.0f}, {}};
+
+struct alignas(64) BuildEmitter
+{
+    Sums own;
+    uint32_t index;
+
+    /// Returns a coordinate of twice the centre.
+    OSGRAYTRACE_INLINE float twiceCentre(int axis) const
+    {
+        return own.box[axis] - own.box[axis + 4];
+    }
+};
+
+/// The box around twice the centres of some emitters.
+struct Centres
+{
+    float low[4], extent[4];
 };
 
 struct Split
 {
     int axis = -1;
-    float at = 0.0f;
+    float at = 0.0f; ///< twice the place of the plane
     float cost = kInfinity;
 };
 
@@ -84,7 +90,128 @@ BuildEmitter buildEmitter(const LightEmitter& emitter, uint32_t index)
     const float sum = b.axis.x + 2.0f * b.axis.y + 3.0f * b.axis.z;
     const float sign = b.twoSided && sum < 0.0f ? -1.0f : 1.0f;
     const float even = b.cosCone > 0.0f ? 1.0f : 0.0f;
-    return {b.low, b.high, b.axis * (sign * even * b.intensity), b.intensity, index};
+    const Vec3 flux = b.axis * (sign * even * b.intensity);
+    BuildEmitter result{kNothing, index};
+    for (int k = 0; k < 3; ++k)
+    {
+        result.own.box[k] = b.low[k];
+        result.own.box[k + 4] = -b.high[k];
+        result.own.flux[k] = flux[k];
+    }
+    result.own.flux[3] = b.intensity;
+    return result;
+}
+
+OSGRAYTRACE_KERNEL
+Centres centresOf(const BuildEmitter* emitters, std::size_t count)
+{
+    float low[4] = {kInfinity, kInfinity, kInfinity, 0.0f};
+    float high[4] = {-kInfinity, -kInfinity, -kInfinity, 0.0f};
+    for (std::size_t i = 0; i < count; ++i)
+        OSGRAYTRACE_SIMD
+    for (int k = 0; k < 4; ++k)
+    {
+        const float centre = emitters[i].twiceCentre(k);
+        low[k] = centre < low[k] ? centre : low[k];
+        high[k] = centre > high[k] ? centre : high[k];
+    }
+    Centres centres;
+    for (int k = 0; k < 4; ++k)
+    {
+        centres.low[k] = low[k];
+        centres.extent[k] = high[k] - low[k];
+    }
+    return centres;
+}
+
+/// Returns the bin of a place, whose distance from the first bin is this many bins.
+OSGRAYTRACE_INLINE uint32_t binAt(float bins)
+{
+    return static_cast<uint32_t>(static_cast<int32_t>(least(bins, kBins - 1)));
+}
+
+/// The sums of emitters by their place along each axis.
+using Bins = Sums[3][kBins];
+
+OSGRAYTRACE_KERNEL
+void addToBins(const BuildEmitter* emitters, std::size_t count, const Centres& centres, Bins& bins)
+{
+    float scale[4];
+    for (int k = 0; k < 4; ++k)
+        scale[k] = centres.extent[k] > 0.0f ? kBins / centres.extent[k] : 0.0f;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const BuildEmitter& e = emitters[i];
+        uint32_t bin[4];
+        OSGRAYTRACE_SIMD
+        for (int k = 0; k < 4; ++k)
+            bin[k] = binAt((e.twiceCentre(k) - centres.low[k]) * scale[k]);
+        bins[0][bin[0]].add(e.own);
+        bins[1][bin[1]].add(e.own);
+        bins[2][bin[2]].add(e.own);
+    }
+}
+
+OSGRAYTRACE_KERNEL
+void addToBins(const BuildEmitter* emitters, std::size_t count, const Centres& centres, int axis,
+               Bins& bins)
+{
+    const float low = centres.low[axis], scale = kBins / centres.extent[axis];
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const BuildEmitter& e = emitters[i];
+        bins[axis][binAt((e.twiceCentre(axis) - low) * scale)].add(e.own);
+    }
+}
+
+/// What is on one side of each of the planes between bins.
+struct Sides
+{
+    FloatLanes intensity{}, surface{}, flux2{};
+
+    OSGRAYTRACE_INLINE void set(uint32_t plane, const Sums& s)
+    {
+        const auto k = static_cast<int>(plane);
+        const float x = -s.box[4] - s.box[0], y = -s.box[5] - s.box[1], z = -s.box[6] - s.box[2];
+        intensity[k] = s.flux[3];
+        surface[k] = x * y + y * z + z * x;
+        flux2[k] = s.flux[0] * s.flux[0] + s.flux[1] * s.flux[1] + s.flux[2] * s.flux[2];
+    }
+
+    OSGRAYTRACE_INLINE float cost(int k) const
+    {
+        const uint32_t shines = maskOf(intensity[k] > 0.0f);
+        // The mean direction over a cap of half-angle o has length (1 + cos o) / 2; the light of a
+        // surface goes a right angle further.
+        const float length = std::sqrt(flux2[k]) / select(shines, intensity[k], 1.0f);
+        const float cosWide = -sineOf(2.0f * least(length, 1.0f) - 1.0f);
+        return select(shines, intensity[k] * surface[k] * (1.0f - cosWide), 0.0f);
+    }
+};
+
+/// Returns what each of the planes between bins costs.
+OSGRAYTRACE_KERNEL
+FloatLanes planeCosts(const Sums* bins)
+{
+    static_assert(kBins <= kLanes);
+    Sides below, above;
+    Sums sum = kNothing;
+    for (uint32_t k = 0; k + 1 < kBins; ++k)
+    {
+        sum.add(bins[k]);
+        below.set(k, sum);
+    }
+    sum = kNothing;
+    for (uint32_t k = kBins - 1; k > 0; --k)
+    {
+        sum.add(bins[k]);
+        above.set(k - 1, sum);
+    }
+    FloatLanes costs;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        costs[i] = below.cost(i) + above.cost(i);
+    return costs;
 }
 
 class Builder
@@ -99,11 +226,12 @@ public:
                         for (std::size_t i = begin; i < end; ++i)
                             _emitters[i] = buildEmitter(emitters[i], static_cast<uint32_t>(i));
                     });
-        _pairs.children.resize(2 * emitters.size() - 2);
-        _pairs.order.resize(emitters.size());
-        _pairs.numbers.resize(emitters.size());
-        _pairs.parents.resize(emitters.size() - 1, kInvalid);
-        _pairs.leafNodes.resize(emitters.size());
+        _pairs.children.reuse(2 * emitters.size() - 2);
+        _pairs.order.reuse(emitters.size());
+        _pairs.numbers.reuse(emitters.size());
+        _pairs.parents.reuse(emitters.size() - 1);
+        _pairs.parents[0] = kInvalid;
+        _pairs.leafNodes.reuse(emitters.size());
     }
 
     /// Parts large nodes level by level, the nodes of a level at once, then all that is below at
@@ -136,7 +264,7 @@ public:
                     [&](std::size_t k, std::size_t)
                     {
                         addBelow(small[k]);
-                        _pairs.subtrees[k].setTurns(_pairs.children);
+                        _pairs.subtrees[k].setTurns(_pairs.children.data());
                     });
         for (std::size_t i = 0; i < _emitters.size(); ++i)
         {
@@ -187,62 +315,55 @@ private:
     {
         const std::size_t begin = node.begin, end = node.end, count = end - begin;
         if (count == 2) return begin + 1;
-        Vec3 low(kInfinity), high(-kInfinity);
-        for (std::size_t i = begin; i < end; ++i)
-        {
-            low = glm::min(low, _emitters[i].centre());
-            high = glm::max(high, _emitters[i].centre());
-        }
-        const Vec3 d = high - low;
-        const int longest = d.x >= d.y && d.x >= d.z ? 0 : (d.y >= d.z ? 1 : 2);
-        Split best;
-        for (int axis = 0; axis < 3; ++axis)
-            if (node.depth < kMostUneven && d[axis] > 0.0f &&
-                (axis == longest || count <= kLongestAxisOnly))
-                tryAxis(begin, end, axis, low[axis], d[axis], d[longest], best);
-        BuildEmitter *const first = _emitters.data() + begin, *const last = _emitters.data() + end;
+        BuildEmitter *const first = _emitters.data() + begin, *const last = first + count;
+        const Centres centres = centresOf(first, count);
+        const float* const d = centres.extent;
+        const int longest = d[0] >= d[1] && d[0] >= d[2] ? 0 : (d[1] >= d[2] ? 1 : 2);
+        const Split best =
+            node.depth < kMostUneven ? bestSplit(first, count, centres, longest) : Split{};
         if (best.axis >= 0)
         {
             const auto middle = std::partition(first, last,
                                                [&](const BuildEmitter& e)
-                                               { return e.centre()[best.axis] < best.at; });
+                                               { return e.twiceCentre(best.axis) < best.at; });
             const auto below = static_cast<std::size_t>(middle - first);
             if (below > 0 && below < count) return begin + below;
         }
         std::nth_element(first, first + static_cast<std::ptrdiff_t>(count / 2), last,
                          [longest](const BuildEmitter& a, const BuildEmitter& b)
-                         { return a.centre()[longest] < b.centre()[longest]; });
+                         { return a.twiceCentre(longest) < b.twiceCentre(longest); });
         return begin + count / 2;
     }
 
-    /// Sets best to the best plane across an axis, if there is a better one.
-    void tryAxis(std::size_t begin, std::size_t end, int axis, float low, float extent,
-                 float longest, Split& best) const
+    /// Returns the best plane; one without an axis if there is none.
+    static Split bestSplit(const BuildEmitter* emitters, std::size_t count, const Centres& centres,
+                           int longest)
     {
-        std::array<Sums, kBins> bins;
-        const float scale = kBins / extent;
-        for (std::size_t i = begin; i < end; ++i)
+        if (!(centres.extent[longest] > 0.0f)) return {};
+        const bool allAxes = count <= kLongestAxisOnly;
+        Bins bins;
+        std::fill_n(&bins[0][0], 3 * kBins, kNothing);
+        if (allAxes)
+            addToBins(emitters, count, centres, bins);
+        else
+            addToBins(emitters, count, centres, longest, bins);
+        Split best;
+        for (int axis = 0; axis < 3; ++axis)
         {
-            const BuildEmitter& e = _emitters[i];
-            const auto bin = static_cast<std::size_t>((e.centre()[axis] - low) * scale);
-            bins[std::min<std::size_t>(bin, kBins - 1)].add(e.low, e.high, e.flux, e.intensity);
+            const float extent = centres.extent[axis];
+            if (!(extent > 0.0f) || (axis != longest && !allAxes)) continue;
+            const FloatLanes costs = planeCosts(bins[axis]);
+            const float thin =
+                centres.extent[longest] / extent; // they cost more [Conty18, sect. 4.4]
+            for (uint32_t k = 0; k + 1 < kBins; ++k)
+            {
+                const float cost = costs[static_cast<int>(k)] * thin;
+                if (cost < best.cost)
+                    best = {axis, centres.low[axis] + extent * static_cast<float>(k + 1) / kBins,
+                            cost};
+            }
         }
-        std::array<float, kBins> above{};
-        Sums sum;
-        for (std::size_t k = kBins - 1; k > 0; --k)
-        {
-            sum.add(bins[k]);
-            above[k] = sum.cost();
-        }
-        sum = {};
-        for (std::size_t k = 0; k + 1 < kBins; ++k)
-        {
-            sum.add(bins[k]);
-            // Thin boxes cost more [Conty18, sect. 4.4].
-            const float cost = (sum.cost() + above[k + 1]) * longest / extent;
-            if (cost < best.cost)
-                best = {axis, low + extent * static_cast<float>(k + 1) / kBins, cost};
-        }
+        return best;
     }
 
     const Workers* _workers;

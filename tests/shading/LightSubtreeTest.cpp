@@ -96,13 +96,14 @@ double difference(const LightNode& a, const LightNode& b)
 LightPairs chain(uint32_t leaves)
 {
     LightPairs pairs;
+    pairs.children.reuse(2 * leaves - 2);
     for (uint32_t k = 0; k + 1 < leaves; ++k)
     {
-        pairs.children.push_back(LightPairs::kLeaf | k);
-        pairs.children.push_back(k + 2 < leaves ? k + 1 : LightPairs::kLeaf | (k + 1));
+        pairs.children[2 * k] = LightPairs::kLeaf | k;
+        pairs.children[2 * k + 1] = k + 2 < leaves ? k + 1 : LightPairs::kLeaf | (k + 1);
     }
     pairs.subtrees.push_back({0, leaves - 1, 0, {}});
-    pairs.subtrees[0].setTurns(pairs.children);
+    pairs.subtrees[0].setTurns(pairs.children.data());
     return pairs;
 }
 
@@ -131,7 +132,7 @@ void checkShape(const LightPairs& pairs, const LightEmitter* emitters)
     std::vector<LightNode> nodes(2 * std::size_t(subtree.pairs)), expected(nodes);
     double spread = 0.0;
     const LightBounds bounds = expectedBelow(pairs, emitters, 0, expected, spread);
-    const SubtreeBounds found = setNodes(subtree, emitters, pairs.children, nodes.data());
+    const SubtreeBounds found = setNodes(subtree, emitters, pairs.children.data(), nodes.data());
     double largest = 0.0;
     for (std::size_t k = 0; k < nodes.size(); ++k)
         largest = std::max(largest, difference(nodes[k], expected[k]));

@@ -73,7 +73,62 @@ int differences(const SceneLightTree& a, const SceneLightTree& b, const std::vec
     return different;
 }
 
+/// Returns a square of side 0.1 that shines to the side of cross(u, v).
+LightEmitter square(Vec3 centre, Vec3 u, Vec3 v)
+{
+    const Vec3 corner = centre - 0.05f * (u + v);
+    LightEmitter e{};
+    for (int c = 0; c < 3; ++c)
+    {
+        e.corner[c] = corner[c];
+        e.edgeU[c] = 0.1f * u[c];
+        e.edgeV[c] = 0.1f * v[c];
+        e.radiance[c] = 1.0f;
+    }
+    e.area = 0.01f;
+    return e;
+}
+
+/// Returns the index of the first emitter of the root's second node; there must be two on each
+/// side.
+uint32_t rootSplit(const LightEmitters& emitters)
+{
+    return lightPairs(emitters, nullptr).children[1];
+}
+
 } // namespace
+
+TEST_CASE("light tree: the root parts lights by place, by direction and by power", "[shading]")
+{
+    constexpr Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    // As many in each of the twelve bins of the build; 6,000 are parted across one axis alone.
+    const uint32_t count = GENERATE(120u, 6000u), third = count / 3;
+    const int axis = GENERATE(0, 1, 2);
+    CAPTURE(count, axis);
+    LightEmitters row(count);
+    const auto set = [&](float gap, Vec3 u, Vec3 v, float power)
+    {
+        for (uint32_t k = 0; k < count; ++k)
+        {
+            const bool first = k < third;
+            Vec3 at(0.0f);
+            at[axis] =
+                static_cast<float>(k) * 120.0f / static_cast<float>(count) + (first ? 0.0f : gap);
+            row[k] = first ? square(at, x, y) : square(at, u, v);
+            row[k].area *= first ? power : 1.0f;
+        }
+    };
+    set(0.0f, x, y, 1.0f);
+    CHECK(rootSplit(row) == count / 2);
+    set(1000.0f, x, y, 1.0f);
+    CHECK(rootSplit(row) == third);
+    set(0.0f, y, x, 1.0f);
+    CHECK(rootSplit(row) == third);
+    set(0.0f, y, z, 1.0f);
+    CHECK(rootSplit(row) == third);
+    set(0.0f, x, y, 1000.0f);
+    CHECK(rootSplit(row) == third);
+}
 
 TEST_CASE("light tree: the same for any number of threads, built and refitted", "[shading]")
 {
