@@ -55,7 +55,7 @@ osg::ref_ptr<osg::Geometry> triangle(float x)
 
 } // namespace
 
-TEST_CASE("osgraytrace: wrong usage ends with 1", "[apps]")
+TEST_CASE("osgraytrace: wrong usage ends with 1", "[apps][long]")
 {
     refuses(1, "", "no MODEL");
     refuses(1, kBox, "no -o FILE");

@@ -46,7 +46,8 @@ void truncate(const std::string& from, const std::string& to, std::size_t bytes)
 
 } // namespace
 
-TEST_CASE("checkpoint: parts in any order are the picture of one machine, file by file", "[apps]")
+TEST_CASE("checkpoint: parts in any order are the picture of one machine, file by file",
+          "[apps][long]")
 {
     for (const std::string integrator : {"path", "sppm"})
     {
@@ -101,7 +102,7 @@ TEST_CASE("checkpoint: fog before nothing is merged as it is rendered", "[apps]"
     CHECK((contents(folder / "merged.png") == contents(folder / "whole.png")));
 }
 
-TEST_CASE("checkpoint: the same command goes on after it was killed", "[apps]")
+TEST_CASE("checkpoint: the same command goes on after it was killed", "[apps][long]")
 {
     const TemporaryFolder folder;
     const std::string options =
@@ -197,7 +198,7 @@ TEST_CASE("checkpoint: damaged files are refused", "[apps]")
     CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 
-TEST_CASE("checkpoint: options that exclude each other are named", "[apps]")
+TEST_CASE("checkpoint: options that exclude each other are named", "[apps][long]")
 {
     const TemporaryFolder folder;
     const std::pair<std::string, const char*> cases[] = {

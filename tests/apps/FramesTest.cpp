@@ -77,7 +77,7 @@ TEST_CASE("osgraytrace --frames: frames whose files are there are left out on re
     CHECK(contents(folder / "f0.png") != "kept");
 }
 
-TEST_CASE("osgraytrace --frames: wrong usage is named", "[apps]")
+TEST_CASE("osgraytrace --frames: wrong usage is named", "[apps][long]")
 {
     const TemporaryFolder folder;
     writeBall(folder);

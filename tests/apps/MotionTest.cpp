@@ -143,7 +143,7 @@ TEST_CASE("osgraytrace: videos are made by ffmpeg, where it is", "[apps]")
     CHECK_FALSE(std::filesystem::exists(folder / "thin.webm"));
 }
 
-TEST_CASE("osgraytrace: wrong usage of motion is named", "[apps]")
+TEST_CASE("osgraytrace: wrong usage of motion is named", "[apps][long]")
 {
     const TemporaryFolder folder;
     writeBall(folder);

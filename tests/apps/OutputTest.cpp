@@ -157,7 +157,7 @@ TEST_CASE("osgraytrace: two outputs that are one file are refused before renderi
     }
 }
 
-TEST_CASE("osgraytrace: what cannot be printed ends with 4", "[apps]")
+TEST_CASE("osgraytrace: what cannot be printed ends with 4", "[apps][long]")
 {
     const TemporaryFolder folder;
     for (const std::string& arguments : {std::string("--list-options"), std::string("--help"),
@@ -175,7 +175,7 @@ TEST_CASE("osgraytrace: what cannot be printed ends with 4", "[apps]")
     CHECK(folder.fileNames() == Names{"x.png"});
 }
 
-TEST_CASE("osgraytrace: a size that a format cannot have leaves the other outputs", "[apps]")
+TEST_CASE("osgraytrace: a size that a format cannot have leaves the other outputs", "[apps][long]")
 {
     const TemporaryFolder folder;
     const Outcome wide = osgraytrace(

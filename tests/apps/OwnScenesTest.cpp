@@ -77,7 +77,7 @@ struct Opening
 } // namespace
 
 TEST_CASE("our own scenes open in a plain viewer with what they are about in sight, and lit",
-          "[apps]")
+          "[apps][long]")
 {
     const Opening openings[] = {
         {"cornell_box",

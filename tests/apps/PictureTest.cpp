@@ -124,7 +124,7 @@ TEST_CASE("osgraytrace: EXR channels are those asked for", "[apps]")
 // The grids are those of the paper's Figures 1 to 3. Errors differ by factors of 1.2 and more from
 // one strategy to the next; over the 19,200 pixels they vary by some 2 %.
 TEST_CASE("osgraytrace: on the grids Sobol points have the least error, random ones the most",
-          "[apps]")
+          "[apps][long]")
 {
     const TemporaryFolder folder;
     const std::string grids =
@@ -231,7 +231,7 @@ TEST_CASE("osgraytrace: --stats counts what was done", "[apps]")
     CHECK(statistics(folder)["medianError"].is_null());
 }
 
-TEST_CASE("osgraytrace: stops at passes, seconds or error, whichever comes first", "[apps]")
+TEST_CASE("osgraytrace: stops at passes, seconds or error, whichever comes first", "[apps][long]")
 {
     const TemporaryFolder folder;
     const std::string write = " --size 32 32 -o x.png --stats s.json ";
@@ -273,7 +273,7 @@ TEST_CASE("osgraytrace: the same picture for any number of threads", "[apps]")
     CHECK(sameBytes(folder / "a.exr", folder / "c.exr"));
 }
 
-TEST_CASE("osgraytrace: the same picture with OSMesa, EGL and no context", "[apps][gl]")
+TEST_CASE("osgraytrace: the same picture with OSMesa, EGL and no context", "[apps][long][gl]")
 {
     const TemporaryFolder folder;
     writeFixedFunctionModel(folder / "sphere.osgt");

@@ -200,7 +200,7 @@ TEST_CASE("area light: triangles without area among the others change nothing",
     }
 }
 
-TEST_CASE("area light: several lights of different power add up", "[integrators][statistics]")
+TEST_CASE("area light: several lights of different power add up", "[integrators][statistics][long]")
 {
     SceneBuilder builder;
     builder.add(quadMesh({-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}), lambert(Vec3(1.0f)));

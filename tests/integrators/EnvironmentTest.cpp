@@ -187,7 +187,7 @@ TEST_CASE("environment: black is black, and one pixel is enough", "[integrators]
 }
 
 TEST_CASE("furnace: nothing is seen of white and clear things under an even sky",
-          "[integrators][statistics]")
+          "[integrators][statistics][long]")
 {
     SceneBuilder builder;
     builder.add(sphereMesh({-1.2f, 0, 0}, 1.0f, 48), lambert(Vec3(1.0f)));

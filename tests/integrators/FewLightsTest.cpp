@@ -138,7 +138,8 @@ TEST_CASE("few lights: the choice among lamps in sight adds no noise", "[integra
     }
 }
 
-TEST_CASE("few lights: a glossy plane shows what a quadrature finds", "[integrators][statistics]")
+TEST_CASE("few lights: a glossy plane shows what a quadrature finds",
+          "[integrators][statistics][long]")
 {
     for (const float roughness : {0.2f, 0.5f})
     {

@@ -56,7 +56,7 @@ TEST_CASE("furnace: path tracing reaches Le / (1 - rho), cut after maxBounces",
     }
 }
 
-TEST_CASE("furnace: the same far from the origin", "[integrators][statistics]")
+TEST_CASE("furnace: the same far from the origin", "[integrators][statistics][long]")
 {
     // Leaks would show as a loss of light. At this distance ray offsets are 0.6, and the error of
     // positions is about 1e-3 of the radius.

@@ -138,7 +138,7 @@ void addLamps(SceneBuilder& builder, int count)
 } // namespace
 
 TEST_CASE("ground: what lamps leave is the light of a white sheet over that without anything above",
-          "[integrators][statistics][ground]")
+          "[integrators][statistics][ground][long]")
 {
     for (const int count : {1, 40})
     {

@@ -128,7 +128,8 @@ View originView(int pixels = 8)
 
 } // namespace
 
-TEST_CASE("light tree: many lamps give the sum of Lambert's formulas", "[integrators][statistics]")
+TEST_CASE("light tree: many lamps give the sum of Lambert's formulas",
+          "[integrators][statistics][long]")
 {
     const std::vector<Vec3> lamps = apart(corners(400, 1));
     REQUIRE(lamps.size() > 100);
