@@ -103,6 +103,35 @@ TEST_CASE("sky panes: the sun is mirrored to what stands outside",
     }
 }
 
+TEST_CASE("sky panes: what is hardly brighter than the mean of the sky is left to paths",
+          "[integrators]")
+{
+    // The density of samples of this sky is below 0.5 a steradian, and near the horizon 0.
+    const auto softSky = [](Vec3d direction)
+    { return Vec3(static_cast<float>(1.0 + std::max(0.0, direction.z))); };
+    for (const bool isSunny : {false, true})
+    {
+        Room room;
+        room.build(false, true);
+        room.wall({4, 1, 1}, {0.6f, 0, 0}, {0, 3, 0});
+        addPane(room);
+        room.addSunnySky();
+        if (!isSunny)
+            room.builder.scene->lights.back().environment.image = newEnvironment(64, 32, softSky);
+        const auto traced = room.builder.build();
+        const View view = perspectiveView({7, 2.5, 4}, {4.2, 2.5, 1}, {0, 0, 1}, 12.0, 16, 16);
+        const std::vector<RectangleLight> rectangles = {rectangle({4, 2, 1}, {0, 1, 0}, {0, 0, 1})};
+        TileCounts counts;
+        const std::vector<PaneSide> sides = panesOf(contextOf(*traced, view), rectangles, counts);
+        REQUIRE(sides.size() == 1);
+        const SkyPortals without(rectangles), with(rectangles, true, sides);
+        const Estimate paths = meanWith(*traced, view, &without, 2);
+        const Estimate known = meanWith(*traced, view, &with, 2);
+        CAPTURE(isSunny, paths.mean(), known.mean());
+        CHECK((paths.mean() == known.mean()) == !isSunny);
+    }
+}
+
 TEST_CASE("sky panes: pictures are equal for any number of threads", "[integrators]")
 {
     Room room;
