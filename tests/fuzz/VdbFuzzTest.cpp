@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: MIT
 #include "CountedMemory.h"
 #include "FuzzSeeds.h"
-#include "tests/plugins/VdbFiles.h"
+#include "tests/plugins/VdbSamples.h"
 
 #include <osg/Notify>
 

@@ -1,6 +1,6 @@
 // VdbFileTest.cpp - files of OpenVDB 10.0.1 as tiles, and files that are damaged. Layer: tests.
 // SPDX-License-Identifier: MIT
-#include "VdbFiles.h"
+#include "VdbSamples.h"
 
 #include "TemporaryFolder.h"
 

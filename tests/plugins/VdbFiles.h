@@ -103,10 +103,4 @@ inline std::string fileBytes(const std::string& path)
     return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
-/// Returns the bytes of one of kVdbFiles.
-inline std::string vdbFile(const std::string& name)
-{
-    return fileBytes(std::string(OSGRAYTRACE_TEST_SOURCE) + "/tests/plugins/vdb/" + name + ".vdb");
-}
-
 } // namespace osgRayTrace::test
