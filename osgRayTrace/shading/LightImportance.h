@@ -149,21 +149,4 @@ OSGRAYTRACE_INLINE float importance(const LightNode& node, PlainVec3 p, PlainVec
     return select(litSide & shines & inReach, unfaded / atLeast(fading, 1e-30f), 0.0f);
 }
 
-/// Returns the probability of the first node of a pair.
-template <NodeLights kLights = NodeLights::Any>
-OSGRAYTRACE_INLINE float shareOfFirst(const LightNode& first, const LightNode& second, PlainVec3 p,
-                                      PlainVec3 normal)
-{
-    // Rounding must not take the last chance of a node that may shine.
-    constexpr float kLeastShare = 0x1p-20f;
-    const float a = importance<kLights>(first, p, normal);
-    const float b = importance<kLights>(second, p, normal);
-    const float sum = a + b;
-    const float share = select(maskOf(sum > 0.0f) & maskOf(sum < kInfinity), a / sum, 0.5f);
-    const float above = atLeast(share, kLeastShare);
-    const float within = atMost(above, 1.0f - kLeastShare);
-    const uint32_t both = maskOf(a > 0.0f) & maskOf(b > 0.0f);
-    return select(both, within, share);
-}
-
 } // namespace osgRayTrace::engine

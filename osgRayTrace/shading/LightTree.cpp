@@ -138,19 +138,41 @@ LightTree::Joined LightTree::setTop(uint32_t pair, const EmitterSource& source,
     return all;
 }
 
+/// Returns the step from a pair.
+LightTree::Step LightTree::stepFrom(uint32_t pair, Vec3 p, Vec3 normal) const
+{
+    Step step;
+    float importances[4] = {};
+    uint32_t has[4] = {};
+    for (uint32_t side = 0; side < 2; ++side)
+    {
+        const uint32_t node = 2 * pair + side, below = _pairs->children[node];
+        const bool isLeaf = (below & LightPairs::kLeaf) != 0;
+        for (uint32_t k = 0; k < (isLeaf ? 1 : 2); ++k)
+        {
+            const uint32_t place = 2 * side + k;
+            step.nodes[place] = isLeaf ? node : 2 * below + k;
+            has[place] = ~0u;
+            importances[place] =
+                importance(_arrays.nodes[step.nodes[place]], plainOf(p), plainOf(normal));
+        }
+    }
+    step.weights = stepWeights({importances[0], importances[1], importances[2], importances[3]},
+                               has[1], has[3]);
+    return step;
+}
+
 LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float& u) const
 {
-    const PlainVec3 point = plainOf(p), n = plainOf(normal);
     Choice choice{0, 1.0f};
     while (!(choice.emitter & LightPairs::kLeaf))
     {
-        const LightNode* nodes = &_arrays.nodes[2 * std::size_t(choice.emitter)];
-        const float share = shareOfFirst(nodes[0], nodes[1], point, n);
-        const bool first = u < share;
-        const float pmf = first ? share : 1.0f - share;
-        u = std::min((first ? u : u - share) / pmf, kOneMinusEpsilon);
-        choice.pmf *= pmf;
-        choice.emitter = nodes[first ? 0 : 1].next;
+        const Step step = stepFrom(choice.emitter, p, normal);
+        const StepChoice chosen = chooseStep(step.weights, u);
+        u = chosen.u;
+        choice.pmf *= chosen.probability;
+        const int place = chosen.is0 ? 0 : chosen.is1 ? 1 : chosen.is2 ? 2 : 3;
+        choice.emitter = _pairs->children[step.nodes[place]];
     }
     choice.emitter &= ~LightPairs::kLeaf;
     return choice;
@@ -158,13 +180,20 @@ LightTree::Choice LightTree::choose(Vec3 p, Vec3 normal, float& u) const
 
 float LightTree::pmf(Vec3 p, Vec3 normal, uint32_t emitter) const
 {
+    uint32_t node = _pairs->leafNodes[emitter];
+    uint32_t levels = 0;
+    for (uint32_t above = node; above != kInvalid; above = _pairs->parents[above / 2])
+        ++levels;
     float pmf = 1.0f;
-    for (uint32_t node = _pairs->leafNodes[emitter]; node != kInvalid;
-         node = _pairs->parents[node / 2])
+    // Steps begin at the root, so that the last one ends one level below its pair if the number of
+    // levels is odd.
+    for (bool isShort = levels % 2; node != kInvalid; isShort = false)
     {
-        const LightNode* nodes = &_arrays.nodes[node & ~1u];
-        const float share = shareOfFirst(nodes[0], nodes[1], plainOf(p), plainOf(normal));
-        pmf *= node & 1u ? 1.0f - share : share;
+        const uint32_t child = isShort ? node : _pairs->parents[node / 2];
+        const StepWeights weights = stepFrom(child / 2, p, normal).weights;
+        const float places[4] = {weights.w0, weights.w1, weights.w2, weights.w3};
+        pmf *= places[2 * (child & 1) + (isShort ? 0 : node & 1)] / sumOf(weights);
+        node = _pairs->parents[child / 2];
     }
     return pmf;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "osgRayTrace/shading/LightEmitters.h"
+#include "osgRayTrace/shading/LightSteps.h"
 #include "osgRayTrace/shading/LightSubtree.h"
 
 #include <memory>
@@ -61,9 +62,10 @@ private:
     LightArrays _arrays;
 };
 
-/// A binary tree over emitters, which is descended from the root: at each pair of nodes one is
-/// chosen in proportion to importance() [Conty18]. Emitters are numbered in the order of the
-/// leaves, so that neighbours in number are neighbours in space. A tree never changes.
+/// A binary tree over emitters, which is descended from the root by steps of two levels: among the
+/// nodes that a step may lead to one is chosen in proportion to importance() [Conty18]; see
+/// LightSteps.h. Emitters are numbered in the order of the leaves, so that neighbours in number are
+/// neighbours in space. A tree never changes.
 class LightTree
 {
 public:
@@ -146,6 +148,13 @@ private:
         }
     };
     using JoinedPairs = std::unordered_map<uint32_t, Joined>;
+
+    struct Step
+    {
+        uint32_t nodes[4] = {}; ///< by place
+        StepWeights weights;
+    };
+    Step stepFrom(uint32_t pair, Vec3 p, Vec3 normal) const;
 
     void setNodes(const EmitterSource& source, const Workers* workers);
     Joined setSubtree(const LightSubtree& subtree, const EmitterSource& source);

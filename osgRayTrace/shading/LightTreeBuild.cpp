@@ -108,12 +108,14 @@ Centres centresOf(const BuildEmitter* emitters, std::size_t count)
     float low[4] = {kInfinity, kInfinity, kInfinity, 0.0f};
     float high[4] = {-kInfinity, -kInfinity, -kInfinity, 0.0f};
     for (std::size_t i = 0; i < count; ++i)
-        OSGRAYTRACE_SIMD
-    for (int k = 0; k < 4; ++k)
     {
-        const float centre = emitters[i].twiceCentre(k);
-        low[k] = centre < low[k] ? centre : low[k];
-        high[k] = centre > high[k] ? centre : high[k];
+        OSGRAYTRACE_SIMD
+        for (int k = 0; k < 4; ++k)
+        {
+            const float centre = emitters[i].twiceCentre(k);
+            low[k] = centre < low[k] ? centre : low[k];
+            high[k] = centre > high[k] ? centre : high[k];
+        }
     }
     Centres centres;
     for (int k = 0; k < 4; ++k)

@@ -17,77 +17,6 @@ OSGRAYTRACE_INLINE uint32_t isOpen(uint32_t at)
     return ~static_cast<uint32_t>(static_cast<int32_t>(at) >> 31);
 }
 
-/// Takes lane i from a pair to one of its nodes, if it has not come to an emitter yet: to the first
-/// with the probability share. first, second: what is below the nodes. Returns all bits if the lane
-/// goes on.
-OSGRAYTRACE_INLINE uint32_t takeNode(float share, uint32_t first, uint32_t second, int i,
-                                     FloatLanes& u, UintLanes& at, FloatLanes& pmf)
-{
-    const uint32_t open = isOpen(at[i]);
-    const uint32_t isFirst = isLess(u[i], share);
-    const float own = select(isFirst, share, 1.0f - share);
-    const float rescaled = (u[i] - select(isFirst, 0.0f, share)) / own;
-    const float below = atMost(rescaled, kOneMinusEpsilon);
-    const uint32_t next = (first & isFirst) | (second & ~isFirst);
-    u[i] = select(open, below, u[i]);
-    pmf[i] = select(open, pmf[i] * own, pmf[i]);
-    at[i] = (next & open) | (at[i] & ~open);
-    return isOpen(at[i]);
-}
-
-/// Sets the probabilities of the first node of one pair. All lanes read the same nodes:
-/// unlike in step(), which spends half of its time on that, nothing is read lane by lane.
-OSGRAYTRACE_KERNEL
-void setShares(const LightNode* pair, const Vec3Lanes& p, const Vec3Lanes& normal,
-               FloatLanes& shares)
-{
-    const LightNode first = pair[0], second = pair[1];
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        shares[i] = shareOfFirst<NodeLights::Any>(first, second, plainOf(p, i), plainOf(normal, i));
-}
-
-/// Does what setShares does, in a tree without point lights.
-OSGRAYTRACE_KERNEL
-void setSharesOfAreas(const LightNode* pair, const Vec3Lanes& p, const Vec3Lanes& normal,
-                      FloatLanes& shares)
-{
-    const LightNode first = pair[0], second = pair[1];
-    OSGRAYTRACE_SIMD
-    for (int i = 0; i < kLanes; ++i)
-        shares[i] =
-            shareOfFirst<NodeLights::Areas>(first, second, plainOf(p, i), plainOf(normal, i));
-}
-
-/// The probabilities of the first nodes of the root's pair and of the two pairs below it.
-struct TopShares
-{
-    FloatLanes root;
-    FloatLanes below[2]; ///< of lanes that go to the root's first node, and to its second
-    uint32_t next[2];    ///< below the root
-    uint32_t after[4];   ///< below the root's first node, and its second
-};
-
-/// Takes the lanes from the root two levels down. Returns the lanes that go on.
-OSGRAYTRACE_KERNEL
-LaneMask descendTop(const TopShares& top, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
-{
-    const uint32_t first = top.next[0], second = top.next[1];
-    const uint32_t a = top.after[0], b = top.after[1], c = top.after[2], d = top.after[3];
-    LaneMask open = 0;
-    OSGRAYTRACE_SIMD_OR(open)
-    for (int i = 0; i < kLanes; ++i)
-    {
-        takeNode(top.root[i], first, second, i, u, at, pmf);
-        const uint32_t isFirst = maskOf(at[i] == first);
-        const float share = select(isFirst, top.below[0][i], top.below[1][i]);
-        open |= bitOfLane(takeNode(share, (a & isFirst) | (c & ~isFirst),
-                                   (b & isFirst) | (d & ~isFirst), i, u, at, pmf),
-                          i);
-    }
-    return open;
-}
-
 /// The nodes that lanes have come to, in columns of words.
 struct NodeLanes
 {
@@ -119,98 +48,213 @@ template <NodeLights kLights> OSGRAYTRACE_INLINE LightNode nodeOf(const NodeLane
     return node;
 }
 
-/// Reads pairs of nodes. at: the lanes' first nodes.
+/// Reads the nodes of lanes.
 template <NodeLights kLights>
-OSGRAYTRACE_INLINE void readPairs(const LightNode* nodes, const UintLanes& at, NodeLanes& first,
-                                  NodeLanes& second)
+OSGRAYTRACE_INLINE void readNodes(const LightNode* nodes, const UintLanes& at, NodeLanes& lanes)
 {
     const float* const words = nodes->centre;
-    readWords(words, at, first.words);
-    readWords(words + kRecordWords, at, second.words);
-    readWords(words + 4, at, first.words + 4);
-    readWords(words + kRecordWords + 4, at, second.words + 4);
-    readWords(words + 8, at, first.words + 8);
-    readWords(words + kRecordWords + 8, at, second.words + 8);
+    readWords(words, at, lanes.words);
+    readWords(words + 4, at, lanes.words + 4);
+    readWords(words + 8, at, lanes.words + 8);
     if constexpr (kLights == NodeLights::Areas) return;
-    readWords(words + 12, at, first.words + 12);
-    readWords(words + kRecordWords + 12, at, second.words + 12);
+    readWords(words + 12, at, lanes.words + 12);
 }
 
-/// Takes each lane from its pair to one of the nodes. kRead: nodes are read four words at a time,
-/// not gathered. Returns the lanes that go on.
-template <NodeLights kLights, bool kRead>
-OSGRAYTRACE_INLINE LaneMask step(const LightNode* nodes, const Vec3Lanes& p,
-                                 const Vec3Lanes& normal, FloatLanes& u, UintLanes& at,
-                                 FloatLanes& pmf)
+/// The nodes of each lane's step, by place.
+struct StepLanes
 {
-    LaneMask open = 0;
-    if constexpr (kRead)
-    {
-        UintLanes pairs;
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-            pairs[i] = 2 * (at[i] & isOpen(at[i]));
-        NodeLanes firsts, seconds;
-        readPairs<kLights>(nodes, pairs, firsts, seconds);
-        OSGRAYTRACE_SIMD_OR(open)
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const LightNode first = nodeOf<kLights>(firsts, i);
-            const LightNode second = nodeOf<kLights>(seconds, i);
-            const float share =
-                shareOfFirst<kLights>(first, second, plainOf(p, i), plainOf(normal, i));
-            open |= bitOfLane(takeNode(share, first.next, second.next, i, u, at, pmf), i);
-        }
-        return open;
-    }
-    OSGRAYTRACE_SIMD_OR(open)
+    UintLanes nodes[4];
+    UintLanes has1, has3; ///< masks: whether there are nodes at places 1 and 3
+    FloatLanes importances[4];
+    UintLanes next[4]; ///< what is below the nodes
+};
+
+/// Sets what is at places 2 side and 2 side + 1 of lane i. child: what is below the node.
+OSGRAYTRACE_INLINE uint32_t setPlaces(uint32_t node, uint32_t child, int i, UintLanes& first,
+                                      UintLanes& second)
+{
+    const uint32_t isInner = isOpen(child);
+    const uint32_t below = select(isInner, 2 * child, node);
+    first[i] = below;
+    second[i] = below + (isInner & 1u);
+    return isInner;
+}
+
+/// Finds the nodes of the lanes' steps. children: see LightPairs.
+OSGRAYTRACE_INLINE void findNodes(const uint32_t* children, const UintLanes& at, StepLanes& step)
+{
+    OSGRAYTRACE_SIMD
     for (int i = 0; i < kLanes; ++i)
     {
         const uint32_t node = 2 * (at[i] & isOpen(at[i]));
-        const LightNode& first = nodes[node];
-        const LightNode& second = nodes[node + 1];
-        const float share = shareOfFirst<kLights>(first, second, plainOf(p, i), plainOf(normal, i));
-        open |= bitOfLane(takeNode(share, first.next, second.next, i, u, at, pmf), i);
+        step.has1[i] = setPlaces(node, children[node], i, step.nodes[0], step.nodes[1]);
+        step.has3[i] = setPlaces(node + 1, children[node + 1], i, step.nodes[2], step.nodes[3]);
+    }
+}
+
+/// Sets importances of the nodes of one place, and what is below them. kRead: nodes are read four
+/// words at a time, not gathered.
+template <NodeLights kLights, bool kRead>
+OSGRAYTRACE_INLINE void weighPlace(const LightNode* nodes, const UintLanes& at, const Vec3Lanes& p,
+                                   const Vec3Lanes& normal, FloatLanes& importances,
+                                   UintLanes& next)
+{
+    if constexpr (kRead)
+    {
+        NodeLanes lanes;
+        readNodes<kLights>(nodes, at, lanes);
+        OSGRAYTRACE_SIMD
+        for (int i = 0; i < kLanes; ++i)
+        {
+            const LightNode node = nodeOf<kLights>(lanes, i);
+            importances[i] = importance<kLights>(node, plainOf(p, i), plainOf(normal, i));
+            next[i] = node.next;
+        }
+        return;
+    }
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const LightNode& node = nodes[at[i]];
+        importances[i] = importance<kLights>(node, plainOf(p, i), plainOf(normal, i));
+        next[i] = node.next;
+    }
+}
+
+/// Returns the weights of the places of lane i. Made in the loop itself, they would have a place in
+/// memory for each turn, and the loop no vector code.
+OSGRAYTRACE_INLINE StepWeights weightsOf(const FloatLanes* importances, uint32_t has1,
+                                         uint32_t has3, int i)
+{
+    return stepWeights({importances[0][i], importances[1][i], importances[2][i], importances[3][i]},
+                       has1, has3);
+}
+
+/// Takes lane i to a place of its step, if it has not come to an emitter yet. Returns all bits if
+/// the lane goes on.
+OSGRAYTRACE_INLINE uint32_t takeStep(StepWeights weights, uint32_t next0, uint32_t next1,
+                                     uint32_t next2, uint32_t next3, int i, FloatLanes& u,
+                                     UintLanes& at, FloatLanes& pmf)
+{
+    const uint32_t open = isOpen(at[i]);
+    const StepChoice choice = chooseStep(weights, u[i]);
+    const uint32_t is3 = ~(choice.is0 | choice.is1 | choice.is2);
+    const uint32_t next =
+        (next0 & choice.is0) | (next1 & choice.is1) | (next2 & choice.is2) | (next3 & is3);
+    u[i] = select(open, choice.u, u[i]);
+    pmf[i] = select(open, pmf[i] * choice.probability, pmf[i]);
+    at[i] = (next & open) | (at[i] & ~open);
+    return isOpen(at[i]);
+}
+
+/// Takes each lane one step down. Returns the lanes that go on.
+template <NodeLights kLights, bool kRead>
+OSGRAYTRACE_INLINE LaneMask step(const LightNode* nodes, const uint32_t* children,
+                                 const Vec3Lanes& p, const Vec3Lanes& normal, FloatLanes& u,
+                                 UintLanes& at, FloatLanes& pmf)
+{
+    StepLanes s;
+    findNodes(children, at, s);
+    for (int k = 0; k < 4; ++k)
+        weighPlace<kLights, kRead>(nodes, s.nodes[k], p, normal, s.importances[k], s.next[k]);
+    LaneMask open = 0;
+    OSGRAYTRACE_SIMD_OR(open)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        open |= bitOfLane(takeStep(weightsOf(s.importances, s.has1[i], s.has3[i], i), s.next[0][i],
+                                   s.next[1][i], s.next[2][i], s.next[3][i], i, u, at, pmf),
+                          i);
     }
     return open;
 }
 
-using Step = LaneMask (*)(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
-                          FloatLanes& u, UintLanes& at, FloatLanes& pmf);
+using LaneStep = LaneMask (*)(const LightNode* nodes, const uint32_t* children, const Vec3Lanes& p,
+                              const Vec3Lanes& normal, FloatLanes& u, UintLanes& at,
+                              FloatLanes& pmf);
 
 OSGRAYTRACE_KERNEL
-LaneMask gatherStep(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
-                    FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+LaneMask gatherStep(const LightNode* nodes, const uint32_t* children, const Vec3Lanes& p,
+                    const Vec3Lanes& normal, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
 {
-    return step<NodeLights::Any, false>(nodes, p, normal, u, at, pmf);
+    return step<NodeLights::Any, false>(nodes, children, p, normal, u, at, pmf);
 }
 
 OSGRAYTRACE_KERNEL
-LaneMask gatherAreasStep(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
-                         FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+LaneMask gatherAreasStep(const LightNode* nodes, const uint32_t* children, const Vec3Lanes& p,
+                         const Vec3Lanes& normal, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
 {
-    return step<NodeLights::Areas, false>(nodes, p, normal, u, at, pmf);
+    return step<NodeLights::Areas, false>(nodes, children, p, normal, u, at, pmf);
 }
 
 OSGRAYTRACE_KERNEL
-LaneMask readStep(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
-                  FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+LaneMask readStep(const LightNode* nodes, const uint32_t* children, const Vec3Lanes& p,
+                  const Vec3Lanes& normal, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
 {
-    return step<NodeLights::Any, true>(nodes, p, normal, u, at, pmf);
+    return step<NodeLights::Any, true>(nodes, children, p, normal, u, at, pmf);
 }
 
 OSGRAYTRACE_KERNEL
-LaneMask readAreasStep(const LightNode* nodes, const Vec3Lanes& p, const Vec3Lanes& normal,
-                       FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+LaneMask readAreasStep(const LightNode* nodes, const uint32_t* children, const Vec3Lanes& p,
+                       const Vec3Lanes& normal, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
 {
-    return step<NodeLights::Areas, true>(nodes, p, normal, u, at, pmf);
+    return step<NodeLights::Areas, true>(nodes, children, p, normal, u, at, pmf);
 }
 
 /// Returns the step of trees with or without point lights.
-Step stepFor(bool areasOnly)
+LaneStep stepFor(bool areasOnly)
 {
     if (readsRecordsFast()) return areasOnly ? readAreasStep : readStep;
     return areasOnly ? gatherAreasStep : gatherStep;
+}
+
+/// The step from the root, which all lanes and picks share.
+struct RootStep
+{
+    FloatLanes importances[4];
+    uint32_t next[4];
+    uint32_t has1, has3;
+};
+
+/// Sets importances of one node. All lanes read the same node: unlike in step(), which spends half
+/// of its time on that, nothing is read lane by lane.
+OSGRAYTRACE_KERNEL
+void weighNode(const LightNode& read, const Vec3Lanes& p, const Vec3Lanes& normal,
+               FloatLanes& importances)
+{
+    const LightNode node = read;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        importances[i] = importance<NodeLights::Any>(node, plainOf(p, i), plainOf(normal, i));
+}
+
+/// Does what weighNode does, in a tree without point lights.
+OSGRAYTRACE_KERNEL
+void weighNodeOfAreas(const LightNode& read, const Vec3Lanes& p, const Vec3Lanes& normal,
+                      FloatLanes& importances)
+{
+    const LightNode node = read;
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        importances[i] = importance<NodeLights::Areas>(node, plainOf(p, i), plainOf(normal, i));
+}
+
+/// Begins a pick: takes its lanes one step down from the root. Returns the lanes that go on.
+OSGRAYTRACE_KERNEL
+LaneMask takeRootStep(const RootStep& root, FloatLanes& u, UintLanes& at, FloatLanes& pmf)
+{
+    const uint32_t next0 = root.next[0], next1 = root.next[1], next2 = root.next[2],
+                   next3 = root.next[3], has1 = root.has1, has3 = root.has3;
+    LaneMask open = 0;
+    OSGRAYTRACE_SIMD_OR(open)
+    for (int i = 0; i < kLanes; ++i)
+    {
+        at[i] = 0;
+        pmf[i] = 1.0f;
+        open |= bitOfLane(takeStep(weightsOf(root.importances, has1, has3, i), next0, next1, next2,
+                                   next3, i, u, at, pmf),
+                          i);
+    }
+    return open;
 }
 
 } // namespace
@@ -219,34 +263,24 @@ void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, Pick* p
                             std::size_t count) const
 {
     const LightNode* const nodes = _arrays.nodes.data();
-    const auto shares = _areasOnly ? setSharesOfAreas : setShares;
-    TopShares top;
-    shares(nodes, p, normal, top.root);
-    for (std::size_t k = 0; k < 2; ++k)
+    const uint32_t* const children = _pairs->children.data();
+    RootStep root;
+    for (uint32_t place = 0; place < 4; ++place)
     {
-        top.next[k] = nodes[k].next;
-        const bool isLeaf = (top.next[k] & LightPairs::kLeaf) != 0;
-        const LightNode* const below = nodes + (isLeaf ? 0 : 2 * std::size_t(top.next[k]));
-        top.after[2 * k] = below[0].next;
-        top.after[2 * k + 1] = below[1].next;
-        if (isLeaf)
-            top.below[k] = top.root; // no lane goes on from there
-        else
-            shares(below, p, normal, top.below[k]);
+        const uint32_t child = children[place / 2];
+        const bool isLeaf = (child & LightPairs::kLeaf) != 0;
+        const uint32_t node = isLeaf ? place / 2 : 2 * child + place % 2;
+        root.next[place] = children[node];
+        (_areasOnly ? weighNodeOfAreas : weighNode)(nodes[node], p, normal,
+                                                    root.importances[place]);
     }
+    root.has1 = isOpen(children[0]);
+    root.has3 = isOpen(children[1]);
     for (std::size_t k = 0; k < count; ++k)
-    {
-        Pick& pick = picks[k];
-        for (int i = 0; i < kLanes; ++i)
-        {
-            pick.emitters[i] = 0;
-            pick.pmf[i] = 1.0f;
-        }
-        pick.open = descendTop(top, pick.u, pick.emitters, pick.pmf);
-    }
+        picks[k].open = takeRootStep(root, picks[k].u, picks[k].emitters, picks[k].pmf);
     // Picks take steps by turns: a processor begins the step of one while results of another one
     // are still to come.
-    const Step step = stepFor(_areasOnly);
+    const LaneStep step = stepFor(_areasOnly);
     for (bool goesOn = true; goesOn;)
     {
         goesOn = false;
@@ -254,7 +288,7 @@ void LightTree::chooseLanes(const Vec3Lanes& p, const Vec3Lanes& normal, Pick* p
         {
             Pick& pick = picks[k];
             if (pick.open == 0) continue;
-            pick.open = step(nodes, p, normal, pick.u, pick.emitters, pick.pmf);
+            pick.open = step(nodes, children, p, normal, pick.u, pick.emitters, pick.pmf);
             goesOn |= pick.open != 0;
         }
     }
