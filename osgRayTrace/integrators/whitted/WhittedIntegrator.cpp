@@ -28,6 +28,10 @@
 namespace osgRayTrace::engine
 {
 
+namespace
+{
+
+/// Returns whether all hits are on the material first.
 OSGRAYTRACE_KERNEL
 bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first)
 {
@@ -37,9 +41,6 @@ bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first)
         differs |= (material[i] ^ first) & laneBit(hits, i);
     return differs == 0;
 }
-
-namespace
-{
 
 OSGRAYTRACE_KERNEL
 void fill(Vec3 value, Vec3Lanes& lanes)
@@ -79,7 +80,7 @@ void setFixedFunction(const WhittedTile& tile, ShadingBlock& block, int i)
 void classify(WhittedTile& tile, ShadingBlock& block)
 {
     LaneMaterials& m = block.materials;
-    m.diffuse = m.fixedFunction = m.physical = m.transmissive = m.emissive = 0;
+    m.diffuse = m.fixedFunction = m.physical = m.transmissive = m.emissive = m.partial = 0;
     facingNormalLanes(block.rays.ray, block.surface, m.normal);
     const MaterialTable& materials = tile.context.traced->materials();
     const LaneMask hits = block.surface.hits;
@@ -91,6 +92,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
     {
         fill(firstRecord.front.diffuse, m.albedo);
         if (firstRecord.front.diffuse != Vec3(0.0f)) m.diffuse = hits;
+        if (firstRecord.partial) m.partial = hits;
         return;
     }
     if (tile.bsdfs.empty())
@@ -106,6 +108,7 @@ void classify(WhittedTile& tile, ShadingBlock& block)
         const uint32_t material = block.surface.material[i];
         const MaterialRecord& record = materials[material];
         m.emissive |= static_cast<LaneMask>(record.emits || record.fixedFunction) << i;
+        m.partial |= static_cast<LaneMask>(record.partial) << i;
         if (record.fixedFunction)
         {
             if (record.material->lit) setFixedFunction(tile, block, i);
@@ -173,7 +176,7 @@ void shade(WhittedTile& tile, ShadingBlock* blocks, int count)
         if (traits.fog) findFog(tile, *block);
         classify(tile, *block);
         fill(Vec3(0.0f), block->radiance);
-        block->passed = traits.blended ? passThrough(tile, *block) : 0;
+        block->passed = traits.blended && block->materials.partial ? passThrough(tile, *block) : 0;
         if (traits.attenuation)
             block->passed |= attenuate(tile.context, block->rays, block->surface, block->weight);
         if (traits.media || traits.ground) block->passed |= block->dimmed;

@@ -61,15 +61,11 @@ void spawn(WhittedTile& tile, const ShadingBlock& block)
 LaneMask passThrough(WhittedTile& tile, ShadingBlock& block)
 {
     const MaterialTable& materials = tile.context.traced->materials();
-    const LaneMask hits = block.surface.hits;
-    if (!hits) return 0;
-    const uint32_t first = block.surface.material[firstLane(hits)];
-    if (!materials[first].partial && isOneMaterial(block.surface.material, hits, first)) return 0;
     LaneMask passed = 0;
-    for (const int i : lanesIn(hits))
+    for (const int i : lanesIn(block.materials.partial))
     {
         const uint32_t material = block.surface.material[i];
-        if (!materials[material].partial || !materials[material].material->blended) continue;
+        if (!materials[material].material->blended) continue;
         if (block.layers[i] >= kMostLayers) continue;
         const float opacity =
             materials.opacity(material, materialPoint(tile.context, block.rays, block.surface, i));

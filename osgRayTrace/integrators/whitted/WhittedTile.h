@@ -42,6 +42,7 @@ struct LaneMaterials
     LaneMask physical = 0;      ///< other lanes that scatter
     LaneMask transmissive = 0;  ///< lanes lit from behind as well
     LaneMask emissive = 0;      ///< lanes of a colour of their own: emission, fixed-function lanes
+    LaneMask partial = 0;       ///< lanes of materials that not every ray meets
     Vec3Lanes normal;           ///< shading normals, towards the ray
     Vec3Lanes albedo;           ///< albedos of diffuse lanes
     Bsdf* bsdfs = nullptr; ///< Bsdfs of physical lanes; also of fixed-function lanes if area lights
@@ -140,9 +141,6 @@ inline void followCones(ShadingBlock& block)
     setFootprints(block.rays.ray, block.cones, block.surface);
     moveCones(block.rays.ray, block.surface.hits, block.cones);
 }
-
-/// Returns whether all hits are on the material first.
-bool isOneMaterial(const UintLanes& material, LaneMask hits, uint32_t first);
 
 /// Pushes the mirrored and refracted rays of physical lanes.
 void spawn(WhittedTile& tile, const ShadingBlock& block);
