@@ -76,6 +76,23 @@ MorphTarget flatTarget(const Vertices& flat, const osg::ref_ptr<osg::Vec3Array>&
     return target;
 }
 
+/// Returns the number of corners of triangles.
+std::uint64_t cornersOf(const osg::PrimitiveSet& primitives)
+{
+    const std::uint64_t indices = primitives.getNumIndices();
+    if (primitives.getMode() == GL_TRIANGLES) return indices / 3 * 3;
+    return indices > 2 ? 3 * (indices - 2) : 0; // strips and fans
+}
+
+/// Returns the bytes of a corner, a position, a normal and the other arrays among them.
+std::uint64_t bytesOfCorner(const Vertices& vertices)
+{
+    return sizeof(unsigned int) + 2 * sizeof(osg::Vec3f) +
+           vertices.texcoords.size() * sizeof(osg::Vec2f) +
+           (vertices.colors ? sizeof(osg::Vec4f) : 0) +
+           vertices.jointSets.size() * (sizeof(osg::Vec4f) + 4 * sizeof(std::uint16_t));
+}
+
 } // namespace
 
 bool isOfTriangles(const osg::PrimitiveSet& primitives)
@@ -85,8 +102,7 @@ bool isOfTriangles(const osg::PrimitiveSet& primitives)
 
 Vertices withFlatNormals(const Vertices& vertices, Document& document, const JsonPlace& place)
 {
-    // Corners, positions and normals, and the other arrays about as much.
-    document.take(std::uint64_t(vertices.primitives->getNumIndices()) * 3 * 64, place);
+    document.take(cornersOf(*vertices.primitives) * bytesOfCorner(vertices), place);
     osg::TriangleIndexFunctor<CollectCorners> collect;
     vertices.primitives->accept(collect);
     const Corners& corners = collect.corners;

@@ -171,3 +171,25 @@ TEST_CASE("gltf: what the file makes is in proportion to it", "[gltf]")
     }
     checkRefusal(model, "out of proportion");
 }
+
+TEST_CASE("gltf: a large mesh without normals is in proportion to its file", "[gltf]")
+{
+    // It becomes three vertices of its own for each of 524,288 triangles.
+    constexpr std::uint32_t kSide = 512, kRow = kSide + 1;
+    std::vector<float> positions;
+    for (std::uint32_t i = 0; i < kRow * kRow; ++i)
+        positions.insert(positions.end(),
+                         {static_cast<float>(i % kRow), static_cast<float>(i / kRow), 0.0f});
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t i = 0; i < kSide * kRow; ++i)
+        if (i % kRow != kSide)
+            corners.insert(corners.end(), {i, i + 1, i + kRow, i + 1, i + kRow + 1, i + kRow});
+    Json model = triangleModel();
+    attributesOf(model)["POSITION"] =
+        addAccessor<float>(model, positions, kFloat, "VEC3", kRow * kRow);
+    model["meshes"][0]["primitives"][0]["indices"] =
+        addAccessor<std::uint32_t>(model, corners, kUnsignedInt, "SCALAR", corners.size());
+    const auto scene = sceneOf(model);
+    const auto& normals = arrayOf<osg::Vec3Array>(geometryOf(*scene).getNormalArray());
+    CHECK(normals.size() == 6 * kSide * kSide);
+}
