@@ -174,22 +174,28 @@ TEST_CASE("gltf: what the file makes is in proportion to it", "[gltf]")
 
 TEST_CASE("gltf: a large mesh without normals is in proportion to its file", "[gltf]")
 {
-    // It becomes three vertices of its own for each of 524,288 triangles.
-    constexpr std::uint32_t kSide = 512, kRow = kSide + 1;
+    // It becomes three vertices of its own for each of 524,288 triangles, which have short indices:
+    // a grid of 32,768, sixteen times.
+    constexpr std::uint16_t kSide = 128, kRow = kSide + 1;
+    constexpr int kTimes = 16;
     std::vector<float> positions;
-    for (std::uint32_t i = 0; i < kRow * kRow; ++i)
+    for (int i = 0; i < kRow * kRow; ++i)
         positions.insert(positions.end(),
                          {static_cast<float>(i % kRow), static_cast<float>(i / kRow), 0.0f});
-    std::vector<std::uint32_t> corners;
-    for (std::uint32_t i = 0; i < kSide * kRow; ++i)
-        if (i % kRow != kSide)
-            corners.insert(corners.end(), {i, i + 1, i + kRow, i + 1, i + kRow + 1, i + kRow});
+    std::vector<std::uint16_t> corners;
+    for (int k = 0; k < kTimes * kSide * kRow; ++k)
+    {
+        const auto i = static_cast<std::uint16_t>(k % (kSide * kRow));
+        if (i % kRow == kSide) continue;
+        for (const int corner : {0, 1, +kRow, 1, kRow + 1, +kRow})
+            corners.push_back(static_cast<std::uint16_t>(i + corner));
+    }
     Json model = triangleModel();
     attributesOf(model)["POSITION"] =
         addAccessor<float>(model, positions, kFloat, "VEC3", kRow * kRow);
     model["meshes"][0]["primitives"][0]["indices"] =
-        addAccessor<std::uint32_t>(model, corners, kUnsignedInt, "SCALAR", corners.size());
+        addAccessor<std::uint16_t>(model, corners, kUnsignedShort, "SCALAR", corners.size());
     const auto scene = sceneOf(model);
     const auto& normals = arrayOf<osg::Vec3Array>(geometryOf(*scene).getNormalArray());
-    CHECK(normals.size() == 6 * kSide * kSide);
+    CHECK(normals.size() == 6u * kTimes * kSide * kSide);
 }
