@@ -284,6 +284,14 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
     finishNormals(block, triangles, smooth, mirrored, start, surface);
 }
 
+PlainTriangle triangleAt(const SurfaceTable& table, const RayHitBlock& block, int lane)
+{
+    TriangleLanes triangles;
+    const uint32_t instance = hitInstance(block.geometry[lane], block.instance[lane]);
+    loadTriangle(table[instance], block.primitive[lane], 0, triangles);
+    return triangleOf(triangles, 0);
+}
+
 /// Returns the normal that facingNormalLanes sets in lane i.
 static OSGRAYTRACE_INLINE PlainVec3 facingNormal(const RayBlock& ray, const SurfaceLanes& surface,
                                                  int i)

@@ -46,6 +46,9 @@ void surfacesOf(const SurfaceTable& table, const RayHitBlock& block, LaneMask ac
                 SurfaceLanes& surface, RayStart start = RayStart::Triangle,
                 LastTriangle* last = nullptr);
 
+/// Returns the vertices of the triangle that the ray of a lane hit.
+PlainTriangle triangleAt(const SurfaceTable& table, const RayHitBlock& block, int lane);
+
 /// Sets normal to the shading normal, turned to the side that the ray comes from, or to the
 /// geometric normal if the two disagree so much that the ray would come from behind the shading
 /// normal. The normals of all lanes are set, also those of lanes without a hit.

@@ -60,6 +60,17 @@ struct PhotonSumLanes
     UintLanes count; ///< 0 in lanes that are not in use
 };
 
+/// A part of an image, and how points of the scene are projected into the image: see
+/// PixelProjection.
+struct ImageWindow
+{
+    Vec3 origin{0.0f};                       ///< of the camera
+    Vec3 rowS{0.0f}, rowX{0.0f}, rowY{0.0f}; ///< their products with p - origin are s, x and y
+    bool orthographic = false;               ///< if not, the last two are s x and s y
+    float left = 0.0f, bottom = 0.0f;        ///< [pixels]
+    float right = 0.0f, top = 0.0f;          ///< [pixels]
+};
+
 /// Names a photon by its index, and the lanes whose discs hold it.
 struct FoundPhoton
 {

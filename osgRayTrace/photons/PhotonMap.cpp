@@ -338,7 +338,7 @@ std::size_t PhotonMap::work(const PhotonQuery& query) const
 Photon PhotonMap::photon(uint32_t k) const
 {
     Photon p;
-    p.position = Vec3(column(X)[k], column(Y)[k], column(Z)[k]);
+    p.position = position(k);
     p.wi = Vec3(column(WiX)[k], column(WiY)[k], column(WiZ)[k]);
     p.power = Vec3(column(Red)[k], column(Green)[k], column(Blue)[k]);
     p.direct = (_normal[k] & kDirectBit) != 0;

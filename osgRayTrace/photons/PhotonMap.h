@@ -69,12 +69,20 @@ public:
     /// different lanes.
     void find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& found) const;
 
+    /// The same, but for photons that are in discs outside of the window, which may be left out.
+    void find(const PhotonQueryLanes& queries, const ImageWindow& window,
+              std::vector<FoundPhoton>& found) const;
+
     /// Replaces distances by those of the disc's photons. Returns false if there are more photons
     /// than most: distances then holds only some of them.
     bool findDistances(const PhotonQuery& query, std::size_t most,
                        NeighbourDistances& distances) const;
 
     Photon photon(uint32_t index) const;
+    Vec3 position(uint32_t index) const
+    {
+        return Vec3(column(X)[index], column(Y)[index], column(Z)[index]);
+    }
 
     /// Returns how many photons gather reads for a query, which is the cost of the query. In a
     /// dense cell these are the photons at the rim of the disc, if sums are used (see

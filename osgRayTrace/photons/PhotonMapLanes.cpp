@@ -174,6 +174,38 @@ LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQuery
     return around;
 }
 
+OSGRAYTRACE_INLINE uint32_t isInWindow(const PhotonColumns& p, int i, const ImageWindow& window)
+{
+    constexpr float kRounding = 0x1p-4f; // of places in the image [pixels]
+    const PlainVec3 way = PlainVec3{p.x[i], p.y[i], p.z[i]} - plainOf(window.origin);
+    const float s = dot(plainOf(window.rowS), way), x = dot(plainOf(window.rowX), way),
+                y = dot(plainOf(window.rowY), way);
+    const float scale = select(maskOf(window.orthographic), 1.0f, s);
+    return maskOf(s > 0.0f) & maskOf(x >= (window.left - kRounding) * scale) &
+           maskOf(x <= (window.right + kRounding) * scale) &
+           maskOf(y >= (window.bottom - kRounding) * scale) &
+           maskOf(y <= (window.top + kRounding) * scale);
+}
+
+/// Sets one mask for sixteen photons each, of those that are in a window of the image; photons that
+/// are hardly outside of it may be among them.
+OSGRAYTRACE_KERNEL
+void photonsInWindow(const PhotonColumns& columns, uint32_t begin, uint32_t end,
+                     const ImageWindow& window, LaneMask* masks)
+{
+    const ImageWindow w = window;
+    for (uint32_t block = begin; block < end; block += kLanes)
+    {
+        const PhotonColumns p = columns.from(block);
+        const int count = static_cast<int>(end - block);
+        LaneMask mask = 0;
+        OSGRAYTRACE_SIMD_OR(mask)
+        for (int i = 0; i < kLanes; ++i)
+            mask |= bitOfLane(isInWindow(p, i, w) & maskOf(i < count), i);
+        *masks++ = mask;
+    }
+}
+
 } // namespace
 
 PhotonQuery laneOf(const PhotonQueryLanes& queries, int i)
@@ -187,6 +219,18 @@ PhotonQuery laneOf(const PhotonQueryLanes& queries, int i)
     return query;
 }
 
+/// Returns whether a group is to read all photons of the ranges.
+static bool areFew(const DenseCellTrees::Range* ranges, int count)
+{
+    uint32_t photons = 0;
+    for (int i = 0; i < count; ++i)
+    {
+        photons += ranges[i].end - ranges[i].begin;
+        if (photons > kMostTogether) return false;
+    }
+    return true;
+}
+
 /// Calls together(lanes, ranges, count) for discs that read the same photons, alone(lane) for the
 /// others.
 template <class Together, class Alone>
@@ -194,16 +238,6 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
                              const Alone& alone) const
 {
     Range ranges[kMaxRanges];
-    const auto suits = [&](int count)
-    {
-        uint32_t photons = 0;
-        for (int i = 0; i < count; ++i)
-        {
-            photons += ranges[i].end - ranges[i].begin;
-            if (photons > kMostTogether) return false;
-        }
-        return true;
-    };
     for (LaneMask left = queries.lanes, group; left; left &= ~group)
     {
         const int first = firstLane(left);
@@ -211,7 +245,7 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
         if (countLanes(group) >= kLeastGroup)
         {
             const int count = rangesOf(queries, group, ranges);
-            if (suits(count))
+            if (areFew(ranges, count))
             {
                 together(group, ranges, count);
                 continue;
@@ -273,6 +307,30 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
                         found.push_back({k, lanes});
         },
         [&](int lane) { findLane(queries, lane, found); });
+}
+
+void PhotonMap::find(const PhotonQueryLanes& queries, const ImageWindow& window,
+                     std::vector<FoundPhoton>& found) const
+{
+    if (_count == 0) return;
+    Range ranges[kMaxRanges];
+    const int count = rangesOf(queries, queries.lanes, ranges);
+    if (!areFew(ranges, count)) return find(queries, found);
+    const PhotonColumns all = columns();
+    const Discs discs = discsOf(queries, queries.lanes);
+    LaneMask masks[kMostTogether / kLanes + 1];
+    for (int r = 0; r < count; ++r)
+    {
+        const Range range = ranges[r];
+        photonsInWindow(all, range.begin, range.end, window, masks);
+        for (uint32_t block = range.begin; block < range.end; block += kLanes)
+            for (const int i : lanesIn(masks[(block - range.begin) / kLanes]))
+            {
+                const uint32_t k = block + static_cast<uint32_t>(i);
+                if (const LaneMask lanes = lanesAround(all, k, queries, discs))
+                    found.push_back({k, lanes});
+            }
+    }
 }
 
 } // namespace osgRayTrace::engine

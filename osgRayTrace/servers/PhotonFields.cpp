@@ -21,18 +21,18 @@ namespace
 
 #if defined(__x86_64__) && defined(__linux__)
 // Whoever adds a member to one of these adds it below, too.
-static_assert(sizeof(SeenPlane) == 32 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
+static_assert(sizeof(SeenPlane) == 48 && sizeof(Photon) == 60 && sizeof(SeenPhoton) == 8 &&
               sizeof(SeenPoint) == 24);
 static_assert(sizeof(GatheredPhotons) == 8736);
 #endif
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
 {
-    a(p.plane.normal, p.plane.offset, p.lookup, p.edge, p.undecided, p.compared, p.discPixels,
+    a(p.plane.normal, p.plane.offset, p.line.normal, p.line.offset, p.lookup, p.edge, p.undecided, p.compared, p.discPixels,
       p.difference, p.squares);
 }
 
-constexpr std::size_t kPlaneBytes = sizeof(Plane) + 3 * sizeof(float) + 4;
+constexpr std::size_t kPlaneBytes = 2 * sizeof(Plane) + 3 * sizeof(float) + 4;
 
 void putPlanes(WireWriter& out, const TilePhotons& photons)
 {

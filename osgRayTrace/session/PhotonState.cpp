@@ -4,6 +4,7 @@
 #include "osgRayTrace/integrators/IntegratorFactory.h"
 
 #include "osgRayTrace/accel/Intersector.h"
+#include "osgRayTrace/base/Cpu.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,14 @@ float pixelWidth(const PassContext& context, int width, int height)
     std::nth_element(widths.begin(),
                      widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2), widths.end());
     return widths[widths.size() / 2];
+}
+
+/// Asks for what the pixels of a tile know, which a pass reads pixel by pixel.
+void fetchAhead(const TileLookups& lookups)
+{
+    constexpr std::size_t kLine = 64; // of the cache [bytes]
+    for (std::size_t byte = 0; byte < sizeof lookups.planes; byte += kLine)
+        prefetch(reinterpret_cast<const char*>(lookups.planes) + byte);
 }
 
 /// Approximate number of pixels of a pass from which the guide learns.
@@ -122,7 +131,7 @@ void PhotonState::reset(int tileCount)
     std::vector<float>().swap(_firstRadii);
     std::vector<LocalStatistics>().swap(_statistics);
     std::vector<HitPoints>().swap(_hitPoints);
-    std::vector<std::unique_ptr<TileLookups>>().swap(_lookups);
+    _lookups.reset(0);
     std::vector<DiscDifferences>().swap(_differences);
     std::vector<std::vector<SeenSquares>>().swap(_seen);
     std::vector<double>().swap(_seenSquares);
@@ -197,7 +206,7 @@ void PhotonState::choose(const std::shared_ptr<const TracedScene>& traced,
     // passes come from one eye to one scene.
     const bool hasFootprints = !context.options.moving && !context.camera.hasLens();
     if (!_local && hasFootprints && !(context.options.photonRadius > 0.0f))
-        _lookups.resize(_pixels / kTilePixels);
+        _lookups.reset(_pixels / kTilePixels);
     static_assert(FirstPasses::kCount == PhotonPasses::kFirst);
     if (!_lookups.empty() && !_points.empty()) _before.reset(_pixels / kTilePixels);
     _projection = PixelProjection(context.camera);
@@ -347,7 +356,7 @@ std::size_t PhotonState::viewBytes() const
 {
     std::size_t bytes =
         _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
-        _lookups.size() * sizeof(TileLookups) + _differences.size() * sizeof(DiscDifferences);
+        _lookups.bytes() + _differences.size() * sizeof(DiscDifferences);
     bytes += _before.bytes();
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();
@@ -369,8 +378,9 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     gathered.separate = _local;
     if (!_lookups.empty())
     {
-        std::unique_ptr<TileLookups>& lookups = _lookups[static_cast<std::size_t>(tile)];
-        if (!lookups) lookups = std::make_unique<TileLookups>(_causticsAlone);
+        TileLookups* lookups = _lookups[static_cast<std::size_t>(tile)];
+        if (!lookups) lookups = _lookups.begin(static_cast<std::size_t>(tile), _causticsAlone);
+        fetchAhead(*lookups);
         const bool isReplaced = _opened && _before.areComplete(static_cast<std::size_t>(tile));
         if (isReplaced && pass == FirstPasses::kCount) lookups->restart();
         gathered.planes = lookups->planes;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "osgRayTrace/base/LazyArray.h"
 #include "osgRayTrace/film/ErrorEstimate.h"
 #include "osgRayTrace/integrators/shared/HitPoints.h"
 #include "osgRayTrace/integrators/shared/Integrator.h"
@@ -150,8 +151,8 @@ private:
     std::size_t _pixels = 0;                  ///< number of pixels of all tiles
     std::vector<float> _firstRadii;           ///< by tile, pixel; 0: not known; empty if local
     std::vector<LocalStatistics> _statistics; ///< by half, tile, pixel; empty unless local
-    /// By tile; null until the tile has a pass. Empty: all look-ups are discs.
-    std::vector<std::unique_ptr<TileLookups>> _lookups;
+    /// By tile, from its first pass on. Empty: all look-ups are discs.
+    LazyArray<TileLookups> _lookups;
     PixelProjection _projection;
     std::vector<HitPoints> _hitPoints;         ///< by half, tile; empty unless passes share paths
     std::vector<DiscDifferences> _differences; ///< by tile

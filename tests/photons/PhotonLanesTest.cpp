@@ -1,6 +1,7 @@
 // PhotonLanesTest.cpp - sixteen look-ups at once find and reflect what sixteen single ones do.
 // SPDX-License-Identifier: MIT
 #include "tests/Catch.h"
+#include "tests/EngineScenes.h"
 #include "tests/Statistics.h"
 #include "tests/photons/RandomAxis.h"
 #include "tests/shading/BsdfKinds.h"
@@ -8,8 +9,10 @@
 #include "osgRayTrace/base/Parallel.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
 #include "osgRayTrace/integrators/shared/PhotonGather.h"
+#include "osgRayTrace/integrators/shared/PixelProjection.h"
 
 #include <algorithm>
+#include <functional>
 
 using namespace osgRayTrace::engine;
 using namespace osgRayTrace::engine::test;
@@ -137,6 +140,69 @@ TEST_CASE("photon lanes: sixteen look-ups are as many single ones", "[photons]")
         }
     }
     CHECK(all > 1000000);
+}
+
+TEST_CASE("photon lanes: look-ups in a window of the image miss no photon there", "[photons]")
+{
+    const Workers workers(2);
+    const View views[] = {
+        perspectiveView({0.1, 0.2, 3}, {0, 0.1, 0}, {0, 1, 0}, 30.0, 64, 64),
+        patchView({0.1, -0.1, 0}, {0, 0, 1}, 1.2, 64),
+    };
+    std::size_t inside = 0, all = 0;
+    for (const auto& [count, cell] :
+         {std::pair(3000, 0.2f), std::pair(60000, 0.1f), std::pair(9000, 4.0f)})
+    {
+        const std::vector<Photon> photons = cube(static_cast<std::size_t>(count), 6);
+        const PhotonMap map(photons, cell, workers);
+        Uniform uniform(12);
+        for (int round = 0; round < 600; ++round)
+        {
+            const std::optional<CameraRays> camera = cameraRays(views[round % 2], Vec3d(0.0));
+            REQUIRE(camera);
+            const PixelProjection projection(*camera);
+            const Vec3 place = photons[static_cast<std::size_t>(round)].position;
+            PhotonQueryLanes queries = blockAround(place, 0.1f, round, uniform);
+            for (int i = 0; i < kLanes; ++i) // footprints have positive radii
+                if (!(queries.radius[i] > 0.0f)) queries.lanes &= ~(1u << i);
+            PixelLanes pixels;
+            for (int i = 0; i < kLanes; ++i)
+            {
+                const PixelProjection::Place at = projection.place(place);
+                pixels.x[i] = std::floor(at.x) + static_cast<float>(i % 4);
+                pixels.y[i] = std::floor(at.y) + static_cast<float>(i / 4);
+            }
+            const ImageWindow window = projection.windowOf(pixels, kAllLanes);
+            const auto isInWindow = [&](const FoundPhoton& f)
+            {
+                const PixelProjection::Place at = projection.place(map.position(f.photon));
+                return at.x >= window.left && at.x < window.right && at.y >= window.bottom &&
+                       at.y < window.top;
+            };
+            std::vector<FoundPhoton> expected, found;
+            map.find(queries, expected);
+            map.find(queries, window, found);
+            all += expected.size();
+            const auto dropOthers = [&](std::vector<FoundPhoton>& list) {
+                list.erase(std::remove_if(list.begin(), list.end(), std::not_fn(isInWindow)),
+                           list.end());
+            };
+            dropOthers(expected);
+            dropOthers(found);
+            inside += found.size();
+            std::vector<std::vector<uint32_t>> a = byLane(found), b = byLane(expected);
+            for (int i = 0; i < kLanes; ++i)
+            {
+                CAPTURE(count, round, i);
+                const auto lane = static_cast<std::size_t>(i);
+                std::sort(a[lane].begin(), a[lane].end());
+                std::sort(b[lane].begin(), b[lane].end());
+                REQUIRE(a[lane] == b[lane]);
+            }
+        }
+    }
+    CHECK(inside > 1000);
+    CHECK(inside < all / 2);
 }
 
 namespace

@@ -347,9 +347,9 @@ struct FootprintSums
 };
 
 /// Sums up the photons in the footprints of the first hits whose pixels take or compare them, as
-/// earlier passes have chosen. queries are discs of any radius at the lanes that gather.
+/// earlier passes have chosen. discs: of any radius, at the lanes that gather.
 void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
-                      PhotonQueryLanes queries, FootprintSums& sums);
+                      const PhotonQueryLanes& discs, FootprintSums& sums);
 
 /// Takes what discs have blurred out of the tile's sums again, if it is to be taken.
 void takeBlur(Tile& tile);
@@ -360,9 +360,13 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
                       const PhotonQueryLanes& queries, const Vec3Lanes& discRadiance,
                       const FootprintSums& footprints);
 
-/// Returns whether the rays through the corners of a pixel of the tile meet a plane, as photons
-/// have to be on it that a look-up with this radius finds.
-bool cornersAreOn(Tile& tile, uint32_t pixel, const Plane& plane, float radius);
+/// Returns whether a surface is on a plane as photons have to be that a look-up with this radius
+/// finds.
+inline bool isOn(const Plane& plane, float radius, Vec3 point, Vec3 normal)
+{
+    return std::fabs(heightAbove(plane, point)) <= kPlaneShare * radius &&
+           glm::dot(plane.normal, normal) >= kLeastNormalCosine;
+}
 
 /// Corrects the sums of discs at first hits that reach beyond the edge of their surface.
 void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,

@@ -7,15 +7,18 @@
 // counts if its ray meets the plane of the disc there, and nothing before. Photons that such a ray
 // does not reach are left out, as are those behind a thin wall.
 //
-// Rays are spared in pixels that are far from edges. A pixel is one of these if its first disc is
-// on the surface and the pixel's corners see the plane of this disc: a pixel at the outline of a
-// block may see the wall behind it first.
+// Rays are spared where the first photons of a block of pixels have been looked up: rays over all
+// of these discs together tell that no edge is near, or that the only one is straight, where a wall
+// stands on the surface. The share of a disc on one side of a line needs no rays. Pixels remember
+// the plane that this is known of. Hits on other surfaces, which a pixel at the outline of a block
+// may see later, send rays of their own.
 #include "osgRayTrace/accel/Intersector.h"
-#include "osgRayTrace/integrators/path/PathBounce.h"
+#include "osgRayTrace/integrators/path/PathDiscProbes.h"
 #include "osgRayTrace/integrators/shared/HitShading.h"
-#include "osgRayTrace/integrators/shared/PixelProjection.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace osgRayTrace::engine
 {
@@ -23,98 +26,191 @@ namespace osgRayTrace::engine
 namespace
 {
 
-constexpr float kProbeHeight = 0.5f;  ///< of the point above the disc, over the disc's radius
 constexpr float kLeastShare = 0.125f; ///< smaller shares are left alone: something is very near
 
-/// Sets the lane's ray from the point above the centre of the disc to a point.
-void aim(const PhotonQuery& disc, Vec3 target, int lane, float reach, RayBlock& rays)
+/// Discs are looked at together if so many of them are on one plane, and if the disc around them
+/// all is no larger than so many of the smallest one.
+constexpr int kLeastTogether = 4;
+constexpr float kLargestTogether = 4.0f;
+
+/// Discs are on one plane if their normals have this cosine at least, and if their centres are off
+/// the plane by no more than this share of the radius.
+constexpr float kSameCosine = 0.9999f, kSamePlane = 1e-3f;
+
+/// Returns the disc around the discs of some lanes, which are on one plane.
+PhotonQuery discAround(const PhotonQueryLanes& queries, LaneMask lanes)
 {
-    const Vec3 start = disc.position + disc.normal * (kProbeHeight * disc.radius);
-    const Vec3 way = target - start;
-    const float length = glm::length(way);
-    setRay(rays, lane, plainOf(start), plainOf(way / length), 0.0f, length * reach);
+    PhotonQuery disc = laneOf(queries, firstLane(lanes));
+    Vec3 sum(0.0f);
+    for (const int i : lanesIn(lanes))
+        sum += laneOf(queries.position, i) - disc.position;
+    disc.position += sum / static_cast<float>(countLanes(lanes));
+    disc.radius = 0.0f;
+    for (const int i : lanesIn(lanes))
+        disc.radius =
+            std::max(disc.radius,
+                     queries.radius[i] + glm::length(laneOf(queries.position, i) - disc.position));
+    return disc;
 }
 
-/// What sixteen points of a disc meet.
-struct Probe
+/// Tells the edges of some lanes' discs, which are on one plane, if there are none, or a straight
+/// one. Leaves them unknown if not.
+void decideTogether(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
+                    LaneMask lanes)
 {
-    float share = 1.0f;   ///< of the disc that is on the surface
-    bool blocked = false; ///< something stands on the disc
-};
-
-/// Points are spread evenly over sixteen sectors and sixteen rings, turned by chance.
-Probe probe(Tile& tile, const PhotonQuery& disc, uint32_t seed)
-{
-    const TracedScene& traced = *tile.context.traced;
-    const ShadingFrame frame(disc.normal);
-    float turn, ring;
-    sobol2Ordered(tile.context.key.index, dimensionSeed(seed, DimensionDiscEdge), turn, ring);
-    RayHitBlock rays = {};
-    for (int i = 0; i < kLanes; ++i)
+    float least = kInfinity;
+    for (const int i : lanesIn(lanes))
+        least = std::min(least, queries.radius[i]);
+    const PhotonQuery disc = discAround(queries, lanes);
+    if (!(disc.radius <= kLargestTogether * least)) return;
+    const FoundEdge found = findEdge(tile, disc, kPlaneShare * least, block.seed[firstLane(lanes)]);
+    if (found.edge == DiscEdge::Unknown) return;
+    for (const int i : lanesIn(lanes))
     {
-        const float angle = 2.0f * kPi * (static_cast<float>(i) + turn) / kLanes;
-        const float share = (static_cast<float>((i * 7) % kLanes) + ring) / kLanes;
-        const float radius = disc.radius * std::sqrt(share);
-        const Vec3 offset =
-            frame.toWorld(Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.0f));
-        aim(disc, disc.position + offset, i, 1.5f, rays.ray);
+        SeenPlane& known = tile.result.photons.gathered->planes[block.flagsOf(i).pixel()];
+        known.plane = planeOf(disc);
+        known.line = found.line;
+        known.edge = found.edge;
     }
-    traced.intersector().closestHits(rays, kAllLanes, Coherence::Coherent);
-    tile.counts.secondaryRays += kLanes;
-    SurfaceLanes surface;
-    surfacesOf(traced.surfaces(), rays, kAllLanes, surface);
-    Probe result;
-    int on = 0;
-    for (const int i : lanesIn(surface.hits))
-    {
-        const float height = glm::dot(laneOf(surface.position, i) - disc.position, disc.normal);
-        const bool turned =
-            glm::dot(laneOf(surface.geometricNormal, i), disc.normal) < kLeastNormalCosine;
-        const bool meets = std::fabs(height) <= kPlaneShare * disc.radius && !turned;
-        on += meets;
-        result.blocked |= !meets && height > -kPlaneShare * disc.radius;
-    }
-    result.share = static_cast<float>(on) / kLanes;
-    return result;
 }
 
-/// Returns f times power, summed over the photons of the disc that can be seen from above it
-/// [W/sr].
-Vec3 seenPower(Tile& tile, const GatherLanes& points, const Bounce& bounce, int i)
+/// Decides for those of the lanes whose discs are on planes with enough others.
+void decideInGroups(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
+                    LaneMask lanes)
+{
+    while (lanes)
+    {
+        const int first = firstLane(lanes);
+        const Vec3 normal = laneOf(queries.normal, first);
+        const Plane plane{normal, glm::dot(normal, laneOf(queries.position, first))};
+        LaneMask group = 0;
+        for (const int i : lanesIn(lanes))
+            if (glm::dot(normal, laneOf(queries.normal, i)) > kSameCosine &&
+                std::fabs(heightAbove(plane, laneOf(queries.position, i))) <=
+                    kSamePlane * queries.radius[first])
+                group |= 1u << i;
+        group |= 1u << first;
+        lanes &= ~group;
+        if (countLanes(group) >= kLeastTogether) decideTogether(tile, block, queries, group);
+    }
+}
+
+/// Takes out of found the photons that cannot be seen from above the disc's centre.
+void dropHidden(Tile& tile, const PhotonQuery& disc, std::vector<uint32_t>& found)
 {
     const PhotonMap& map = *tile.context.photons;
-    const PhotonQuery disc = laneOf(points.queries, i);
-    std::vector<uint32_t>& found = tile.gatherScratch.found;
-    found.clear();
-    map.find(disc, found);
-    Vec3 power(0.0f);
+    std::size_t kept = 0;
     for (std::size_t first = 0; first < found.size(); first += kLanes)
     {
         const int count = static_cast<int>(std::min<std::size_t>(kLanes, found.size() - first));
-        RayBlock rays = {};
+        Vec3Lanes targets = {};
+        RayBlock rays;
         for (int k = 0; k < count; ++k)
-            aim(disc, map.photon(found[first + static_cast<std::size_t>(k)]).position, k, 0.99f,
-                rays);
+            setLane(targets, k, map.position(found[first + static_cast<std::size_t>(k)]));
+        aimAt(plainOf(startAbove(disc)), targets, 0.99f, rays);
         tile.context.traced->intersector().occlusion(rays, (1u << count) - 1u);
         tile.counts.shadowRays += static_cast<uint64_t>(count);
         for (int k = 0; k < count; ++k)
+            if (rays.tFar[k] > 0.0f) found[kept++] = found[first + static_cast<std::size_t>(k)];
+    }
+    found.resize(kept);
+}
+
+/// Takes out of found the photons beyond a line.
+void dropBeyond(const PhotonMap& map, const Plane& line, std::vector<uint32_t>& found)
+{
+    const auto isBeyond = [&](uint32_t k) { return heightAbove(line, map.position(k)) > 0.0f; };
+    found.erase(std::remove_if(found.begin(), found.end(), isBeyond), found.end());
+}
+
+/// What is corrected: the discs of some lanes and the sums over their photons.
+struct Discs
+{
+    const PathBlock& block;
+    const Bounce& bounce;
+    const PhotonQueryLanes& queries;
+    PhotonSumLanes& sums;
+};
+
+/// Sets the sum of lane i to that of the photons that drop(found) leaves, over the share of the
+/// disc that is on the surface.
+template <class Drop>
+void correct(Tile& tile, const Discs& discs, int i, float share, const Drop& drop)
+{
+    const PhotonMap& map = *tile.context.photons;
+    std::vector<uint32_t>& found = tile.gatherScratch.found;
+    found.clear();
+    map.find(laneOf(discs.queries, i), found);
+    const std::size_t all = found.size();
+    drop(found);
+    Vec3 power = laneOf(discs.sums.power, i);
+    if (found.size() < all)
+    {
+        const Bounce& bounce = discs.bounce;
+        GatherLanes points{discs.queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
+        setLane(points.wo, i, -directionOf(discs.block.rays.ray, i));
+        power = Vec3(0.0f);
+        for (const uint32_t k : found)
         {
-            const Photon photon = map.photon(found[first + static_cast<std::size_t>(k)]);
-            if (!(rays.tFar[k] > 0.0f) || (((points.directOnly >> i) & 1u) && !photon.direct))
-                continue;
+            const Photon photon = map.photon(k);
+            if (((points.directOnly >> i) & 1u) && !photon.direct) continue;
             power += scatterPhoton(points, bounce.albedo, bounce.diffuse, i, photon) * photon.power;
         }
     }
-    return power;
+    setLane(discs.sums.power, i, power / share);
 }
 
-/// Returns whether a pixel sees nothing but the plane of one of its discs, as far as its corners
-/// tell. If it does not, the discs of its other surfaces may reach beyond an edge that this one is
-/// far from.
-bool seesPlaneAlone(Tile& tile, const PhotonQuery& disc, uint32_t pixel)
+/// Returns the share of a disc's area that is before a line at this distance from the centre, over
+/// the radius: from -1 to 1, and negative if the centre is beyond.
+float shareBefore(float distance)
 {
-    const Plane plane{disc.normal, glm::dot(disc.normal, disc.position)};
-    return cornersAreOn(tile, pixel, plane, disc.radius);
+    return 1.0f - (std::acos(distance) - distance * std::sqrt(1.0f - distance * distance)) * kInvPi;
+}
+
+/// Corrects the discs of some lanes that end at straight lines.
+void correctAtLines(Tile& tile, const Discs& discs, LaneMask lanes)
+{
+    const auto lineOf = [&](int i) -> const Plane&
+    { return tile.result.photons.gathered->planes[discs.block.flagsOf(i).pixel()].line; };
+    PhotonQueryLanes cut = discs.queries;
+    cut.lanes = 0;
+    FloatLanes share;
+    for (const int i : lanesIn(lanes))
+    {
+        const float distance = -heightAbove(lineOf(i), laneOf(cut.position, i)) / cut.radius[i];
+        if (!(distance < 1.0f)) continue;
+        share[i] = shareBefore(std::max(distance, 0.0f));
+        cut.lanes |= 1u << i;
+    }
+    if (!cut.lanes) return;
+    const PhotonMap& map = *tile.context.photons;
+    std::vector<FoundPhoton>& found = tile.gatherScratch.foundLanes;
+    found.clear();
+    map.find(cut, found);
+    LaneMask beyond = 0; // lanes that have photons there
+    for (const FoundPhoton& f : found)
+        for (const int i : lanesIn(f.lanes & ~beyond))
+            if (heightAbove(lineOf(i), map.position(f.photon)) > 0.0f) beyond |= 1u << i;
+    for (const int i : lanesIn(cut.lanes))
+        if ((beyond >> i) & 1u)
+            correct(tile, discs, i, share[i],
+                    [&](std::vector<uint32_t>& photons) { dropBeyond(map, lineOf(i), photons); });
+        else
+            setLane(discs.sums.power, i, laneOf(discs.sums.power, i) / share[i]);
+}
+
+/// Corrects a disc by what rays tell of it. Returns the share of it that is on the surface.
+float correctByRays(Tile& tile, const Discs& discs, int i)
+{
+    const PhotonQuery disc = laneOf(discs.queries, i);
+    const DiscShare found = shareOf(tile, disc, discs.block.seed[i]);
+    if (!(found.share >= kLeastShare && found.share < 1.0f)) return found.share;
+    if (found.blocked)
+        correct(tile, discs, i, found.share,
+                [&](std::vector<uint32_t>& photons) { dropHidden(tile, disc, photons); });
+    else
+        setLane(discs.sums.power, i, laneOf(discs.sums.power, i) / found.share);
+    return found.share;
 }
 
 } // namespace
@@ -122,30 +218,40 @@ bool seesPlaneAlone(Tile& tile, const PhotonQuery& disc, uint32_t pixel)
 void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
                   const PhotonQueryLanes& queries, PhotonSumLanes& sums)
 {
-    SeenPlane* planes = tile.result.photons.gathered->planes;
+    const GatheredPhotons& gathered = *tile.result.photons.gathered;
+    SeenPlane* planes = gathered.planes;
     // Caustics are seldom even up to an edge: a share of the disc tells little of their light
     // there.
     if (!planes || bounce.number > 0 || bounce.below ||
         tile.context.photonUse != PhotonUse::Indirect)
         return;
-    GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
+    LaneMask lanes = 0, unknown = 0;
     for (const int i : lanesIn(queries.lanes & ~bounce.collided))
     {
-        SeenPlane& known = planes[block.flagsOf(i).pixel()];
         const bool through = !((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough();
-        if (sums.count[i] == 0 || known.edge == DiscEdge::None || through) continue;
-        const PhotonQuery disc = laneOf(queries, i);
-        const Probe found = probe(tile, disc, block.seed[i]);
-        if (known.edge == DiscEdge::Unknown && tile.result.photons.gathered->choosesPlanes)
-            known.edge = found.share < 1.0f || !seesPlaneAlone(tile, disc, block.flagsOf(i).pixel())
-                             ? DiscEdge::Near
-                             : DiscEdge::None;
-        if (!(found.share >= kLeastShare && found.share < 1.0f)) continue;
-        setLane(points.wo, i, -directionOf(block.rays.ray, i));
-        const Vec3 power =
-            found.blocked ? seenPower(tile, points, bounce, i) : laneOf(sums.power, i);
-        setLane(sums.power, i, power / found.share);
+        if (sums.count[i] == 0 || through) continue;
+        lanes |= 1u << i;
+        if (planes[block.flagsOf(i).pixel()].edge == DiscEdge::Unknown) unknown |= 1u << i;
     }
+    if (unknown && gathered.choosesPlanes) decideInGroups(tile, block, queries, unknown);
+    const Discs discs{block, bounce, queries, sums};
+    LaneMask straight = 0;
+    for (const int i : lanesIn(lanes))
+    {
+        SeenPlane& known = planes[block.flagsOf(i).pixel()];
+        const bool isKnown = known.edge == DiscEdge::None || known.edge == DiscEdge::Straight;
+        if (isKnown && isOn(known.plane, queries.radius[i], laneOf(queries.position, i),
+                            laneOf(queries.normal, i)))
+        {
+            if (known.edge == DiscEdge::Straight) straight |= 1u << i;
+            continue;
+        }
+        const float share = correctByRays(tile, discs, i);
+        if (known.edge != DiscEdge::Unknown || !gathered.choosesPlanes) continue;
+        known.edge = share < 1.0f ? DiscEdge::Near : DiscEdge::None;
+        known.plane = planeOf(laneOf(queries, i));
+    }
+    if (straight) correctAtLines(tile, discs, straight);
 }
 
 } // namespace osgRayTrace::engine

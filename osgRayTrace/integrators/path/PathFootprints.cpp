@@ -39,47 +39,21 @@ constexpr float kCausticSignificance = 2.0f, kIndirectSignificance = 3.0f;
 /// the photons of the disc, in all passes that were compared. The standard error is too small then.
 constexpr float kLeastExpected = 3.0f;
 
-/// Footprints that are longer than this many roots of their area are left to discs.
-constexpr float kLongestFootprint = 4.0f;
-
-/// The corner of a pixel: its place in the image.
-struct PixelCorner
-{
-    float x, y;
-};
-
-PixelCorner cornerOf(const Tile& tile, uint32_t pixel)
+/// Sets the corner of a pixel with the least x and y: its place in the image.
+void setCorner(const Tile& tile, uint32_t pixel, int i, PixelLanes& pixels)
 {
     const int block = static_cast<int>(pixel) / kLanes, lane = static_cast<int>(pixel) % kLanes;
-    return {static_cast<float>(tile.left + laneX(block, lane)),
-            static_cast<float>(tile.bottom + laneY(block, lane))};
+    pixels.x[i] = static_cast<float>(tile.left + laneX(block, lane));
+    pixels.y[i] = static_cast<float>(tile.bottom + laneY(block, lane));
 }
 
-/// Holds the part of a plane that a pixel sees, within a disc.
-struct Footprint
+/// Sets the products of vectors.
+OSGRAYTRACE_KERNEL
+void dotLanes(const Vec3Lanes& a, const Vec3Lanes& b, FloatLanes& products)
 {
-    Vec3 centre{0.0f};
-    float radius = 0.0f; ///< 0: the plane is seen too obliquely
-    float area = 0.0f;
-};
-
-Footprint footprintOf(const PixelProjection& projection, PixelCorner pixel, const Plane& plane)
-{
-    const std::optional<Vec3> centre = projection.onPlane(pixel.x + 0.5f, pixel.y + 0.5f, plane);
-    if (!centre) return {};
-    float radius = 0.0f;
-    for (int corner = 0; corner < 4; ++corner)
-    {
-        const std::optional<Vec3> at =
-            projection.onPlane(pixel.x + static_cast<float>(corner & 1),
-                               pixel.y + static_cast<float>(corner >> 1), plane);
-        if (!at) return {};
-        radius = std::max(radius, glm::length(*at - *centre));
-    }
-    const PixelProjection::Place place = projection.place(*centre);
-    const float area = projection.pixelArea(*centre, place.s, plane.normal);
-    if (!(radius * radius < kLongestFootprint * kLongestFootprint * area)) return {};
-    return {*centre, radius * (1.0f + 0x1p-10f), area};
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+        products[i] = a.x[i] * b.x[i] + a.y[i] * b.y[i] + a.z[i] * b.z[i];
 }
 
 Plane planeOf(const Bounce& bounce, int i)
@@ -88,102 +62,157 @@ Plane planeOf(const Bounce& bounce, int i)
     return {normal, glm::dot(normal, laneOf(trianglePoints(bounce.surface), i))};
 }
 
-/// Returns whether a surface is on a plane as photons have to be that a look-up with this radius
-/// finds.
-bool isOn(const Plane& plane, float radius, Vec3 point, Vec3 normal)
-{
-    return std::fabs(glm::dot(plane.normal, point) - plane.offset) <= kPlaneShare * radius &&
-           glm::dot(plane.normal, normal) >= kLeastNormalCosine;
-}
-
 } // namespace
-
-bool cornersAreOn(Tile& tile, uint32_t index, const Plane& plane, float radius)
-{
-    const PixelCorner pixel = cornerOf(tile, index);
-    constexpr LaneMask kCorners = 0xf;
-    const PixelProjection& projection = *tile.context.projection;
-    const TracedScene& traced = *tile.context.traced;
-    RayHitBlock rays = {};
-    for (int i = 0; i < kLanes; ++i)
-    {
-        const float x = pixel.x + static_cast<float>(i & 1),
-                    y = pixel.y + static_cast<float>((i >> 1) & 1);
-        const Vec3 direction = projection.direction(x, y);
-        const float length = glm::length(direction);
-        setRay(rays.ray, i, plainOf(projection.origin(x, y)), plainOf(direction / length),
-               projection.nearS() * length, kInfinity);
-    }
-    traced.intersector().closestHits(rays, kCorners, Coherence::Coherent, kCameraRays);
-    tile.counts.secondaryRays += 4;
-    SurfaceLanes surface;
-    surfacesOf(traced.surfaces(), rays, kCorners, surface);
-    if ((surface.hits & kCorners) != kCorners) return false;
-    for (const int i : lanesIn(kCorners))
-        if (!isOn(plane, radius, laneOf(surface.position, i), laneOf(surface.geometricNormal, i)))
-            return false;
-    return true;
-}
 
 namespace
 {
 
-/// Sums up the photons that the queries find in the pixels of their lanes.
-void addFound(Tile& tile, const PathBlock& block, const Bounce& bounce,
-              const PhotonQueryLanes& queries, const PixelCorner* pixels, FootprintSums& sums)
+/// The corners of a block's pixels, and what is seen there.
+struct BlockCorners
 {
-    GatheredPhotons& gathered = *tile.result.photons.gathered;
-    const PhotonMap& map = *tile.context.photons;
+    static constexpr int kSide = kBlockSize + 1, kCount = kSide * kSide;
+    Vec3 position[kCount], normal[kCount];
+    bool isHit[kCount];
+};
+
+/// Sends rays through the corners of a block whose first corner is given.
+void traceCorners(Tile& tile, float left, float bottom, BlockCorners& corners)
+{
     const PixelProjection& projection = *tile.context.projection;
-    GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
-    for (int i = 0; i < kLanes; ++i)
+    const TracedScene& traced = *tile.context.traced;
+    for (int first = 0; first < BlockCorners::kCount; first += kLanes)
     {
-        setLane(points.wo, i, -directionOf(block.rays.ray, i));
-        setLane(sums.radiance, i, Vec3(0.0f));
-    }
-    std::vector<FoundPhoton>& found = tile.gatherScratch.foundLanes;
-    found.clear();
-    map.find(queries, found);
-    for (const FoundPhoton& f : found)
-    {
-        const Photon photon = map.photon(f.photon);
-        const PixelProjection::Place place = projection.place(photon.position);
-        for (const int i : lanesIn(photon.direct ? f.lanes : f.lanes & ~points.directOnly))
+        const int count = std::min(kLanes, BlockCorners::kCount - first);
+        RayHitBlock rays = {};
+        for (int k = 0; k < count; ++k)
         {
-            if (std::floor(place.x) != pixels[i].x || std::floor(place.y) != pixels[i].y) continue;
-            const uint32_t pixel = block.flagsOf(i).pixel();
-            const float area =
-                projection.pixelArea(photon.position, place.s, laneOf(queries.normal, i));
-            const Vec3 radiance = laneOf(block.throughput, i) *
-                                  scatterPhoton(points, bounce.albedo, bounce.diffuse, i, photon) *
-                                  photon.power / area;
-            setLane(sums.radiance, i, laneOf(sums.radiance, i) + radiance);
-            if (gathered.seenStride && photon.bin != kInvalid && ((sums.chosen >> i) & 1u) &&
-                (pixel + gathered.seenFirst) % gathered.seenStride == 0)
-                gathered.seen.push_back({photon.bin, luminance(radiance)});
+            const float x = left + static_cast<float>((first + k) % BlockCorners::kSide),
+                        y = bottom + static_cast<float>((first + k) / BlockCorners::kSide);
+            const Vec3 direction = projection.direction(x, y);
+            const float length = glm::length(direction);
+            setRay(rays.ray, k, plainOf(projection.origin(x, y)), plainOf(direction / length),
+                   projection.nearS() * length, kInfinity);
+        }
+        const LaneMask asked = (1u << count) - 1u;
+        traced.intersector().closestHits(rays, asked, Coherence::Coherent, kCameraRays);
+        tile.counts.secondaryRays += static_cast<uint64_t>(count);
+        SurfaceLanes surface;
+        surfacesOf(traced.surfaces(), rays, asked, surface);
+        for (int k = 0; k < count; ++k)
+        {
+            corners.isHit[first + k] = (surface.hits >> k) & 1u;
+            corners.position[first + k] = laneOf(surface.position, k);
+            corners.normal[first + k] = laneOf(surface.geometricNormal, k);
         }
     }
 }
 
-/// Returns the plane that the pixel compares its disc on, if the disc is small enough and the pixel
-/// sees nothing but that plane.
-SeenPlane planeToCompare(Tile& tile, uint32_t index, const Bounce& bounce,
-                         const PhotonQueryLanes& queries, int i)
+/// Returns the lanes all of whose pixels' corners see their planes, as photons have to be on them
+/// that look-ups with these radii find.
+LaneMask seenAlone(Tile& tile, const PathBlock& block, const PlaneLanes& planes,
+                   const FloatLanes& radius, LaneMask lanes)
 {
-    const PixelCorner pixel = cornerOf(tile, index);
+    BlockCorners corners;
+    int traced = -1; // the block of pixels whose corners these are
+    for (const int i : lanesIn(lanes))
+    {
+        const int pixel = static_cast<int>(block.flagsOf(i).pixel());
+        const int pixels = pixel / kLanes;
+        if (pixels != traced)
+            traceCorners(tile, static_cast<float>(tile.left + laneX(pixels, 0)),
+                         static_cast<float>(tile.bottom + laneY(pixels, 0)), corners);
+        traced = pixels;
+        const Plane plane{laneOf(planes.normal, i), planes.offset[i]};
+        const int first = laneX(0, pixel % kLanes) + BlockCorners::kSide * laneY(0, pixel % kLanes);
+        for (const int k :
+             {first, first + 1, first + BlockCorners::kSide, first + BlockCorners::kSide + 1})
+            if (!corners.isHit[k] ||
+                !isOn(plane, radius[i], corners.position[k], corners.normal[k]))
+                lanes &= ~(1u << i);
+    }
+    return lanes;
+}
+
+/// Returns the lane of those given whose pixel a place is in; negative: none.
+int laneAt(const PixelProjection::Place& place, const PixelLanes& pixels, LaneMask lanes)
+{
+    for (const int i : lanesIn(lanes))
+        if (place.x >= pixels.x[i] && place.x < pixels.x[i] + 1.0f && place.y >= pixels.y[i] &&
+            place.y < pixels.y[i] + 1.0f)
+            return i;
+    return -1;
+}
+
+/// Sums up the photons that the queries find in the pixels of their lanes.
+void addFound(Tile& tile, const PathBlock& block, const Bounce& bounce,
+              const PhotonQueryLanes& queries, const PixelLanes& pixels, FootprintSums& sums)
+{
+    GatheredPhotons& gathered = *tile.result.photons.gathered;
+    const PhotonMap& map = *tile.context.photons;
     const PixelProjection& projection = *tile.context.projection;
-    const Vec3 point = laneOf(queries.position, i), normal = laneOf(queries.normal, i);
-    const float discArea = kPi * queries.radius[i] * queries.radius[i];
-    const float area = projection.pixelArea(point, projection.place(point).s, normal);
-    SeenPlane result = tile.result.photons.gathered->planes[index];
-    if (!(discArea < kLargestDisc * area)) return result;
-    result.plane = planeOf(bounce, i);
-    result.lookup = PixelLookup::Disc;
-    if (!((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough()) return result;
-    const Footprint footprint = footprintOf(projection, pixel, result.plane);
-    if (footprint.radius > 0.0f && cornersAreOn(tile, index, result.plane, footprint.radius))
-        result.lookup = PixelLookup::Compared;
-    return result;
+    sums.radiance = {};
+    std::vector<FoundPhoton>& found = tile.gatherScratch.foundLanes;
+    found.clear();
+    map.find(queries, projection.windowOf(pixels, queries.lanes), found);
+    if (found.empty()) return;
+    GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
+    for (const int i : lanesIn(queries.lanes & ~bounce.diffuse))
+        setLane(points.wo, i, -directionOf(block.rays.ray, i));
+    for (const FoundPhoton& f : found)
+    {
+        const PixelProjection::Place place = projection.place(map.position(f.photon));
+        const int i = laneAt(place, pixels, f.lanes);
+        if (i < 0) continue;
+        const Photon photon = map.photon(f.photon);
+        if (!photon.direct && ((points.directOnly >> i) & 1u)) continue;
+        const float area =
+            projection.pixelArea(photon.position, place.s, laneOf(queries.normal, i));
+        const Vec3 radiance = laneOf(block.throughput, i) *
+                              scatterPhoton(points, bounce.albedo, bounce.diffuse, i, photon) *
+                              photon.power / area;
+        setLane(sums.radiance, i, laneOf(sums.radiance, i) + radiance);
+        const uint32_t pixel = block.flagsOf(i).pixel();
+        if (gathered.seenStride && photon.bin != kInvalid && ((sums.chosen >> i) & 1u) &&
+            (pixel + gathered.seenFirst) % gathered.seenStride == 0)
+            gathered.seen.push_back({photon.bin, luminance(radiance)});
+    }
+}
+
+/// Sets the planes that undecided pixels compare their discs on, if these are small enough and the
+/// pixels see nothing but that plane.
+void choosePlanes(Tile& tile, const PathBlock& block, const Bounce& bounce,
+                  const PhotonQueryLanes& queries, LaneMask undecided)
+{
+    const PixelProjection& projection = *tile.context.projection;
+    SeenPlane* const known = tile.result.photons.gathered->planes;
+    PixelLanes pixels;
+    PlaneLanes planes;
+    LaneMask seesPlane = 0;
+    for (const int i : lanesIn(undecided))
+    {
+        const uint32_t pixel = block.flagsOf(i).pixel();
+        SeenPlane& seen = known[pixel];
+        ++seen.undecided;
+        const Vec3 point = laneOf(queries.position, i), normal = laneOf(queries.normal, i);
+        const float discArea = kPi * queries.radius[i] * queries.radius[i];
+        const float area = projection.pixelArea(point, projection.place(point).s, normal);
+        if (!(discArea < kLargestDisc * area)) continue;
+        if (!isOn(seen.plane, queries.radius[i], point, normal)) seen.edge = DiscEdge::Unknown;
+        seen.plane = planeOf(bounce, i);
+        seen.lookup = PixelLookup::Disc;
+        if (!((bounce.diffuse >> i) & 1u) && bounce.bsdfs[i].scattersThrough()) continue;
+        setCorner(tile, pixel, i, pixels);
+        setLane(planes.normal, i, seen.plane.normal);
+        planes.offset[i] = seen.plane.offset;
+        seesPlane |= 1u << i;
+    }
+    if (!seesPlane) return;
+    FootprintLanes footprints;
+    projection.footprints(pixels, planes, footprints);
+    for (const int i : lanesIn(seesPlane))
+        if (!(footprints.radius[i] > 0.0f)) seesPlane &= ~(1u << i);
+    for (const int i : lanesIn(seenAlone(tile, block, planes, footprints.radius, seesPlane)))
+        known[block.flagsOf(i).pixel()].lookup = PixelLookup::Compared;
 }
 
 /// Returns how many photons a pixel has in its footprint, judged by those in its disc.
@@ -201,44 +230,59 @@ float expectedPhotons(Tile& tile, const PhotonQuery& disc)
 } // namespace
 
 void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
-                      PhotonQueryLanes queries, FootprintSums& sums)
+                      const PhotonQueryLanes& discs, FootprintSums& sums)
 {
     sums.chosen = sums.compared = 0;
     GatheredPhotons& gathered = *tile.result.photons.gathered;
     if (!gathered.planes || bounce.number > 0 || bounce.below) return;
-    queries.lanes &= ~bounce.collided; // the pixel does not see their surfaces
-    PixelCorner pixels[kLanes];
-    for (const int i : lanesIn(queries.lanes))
+    PixelLanes pixels;
+    PlaneLanes planes;
+    LaneMask chosen = 0, compares = 0;
+    for (const int i : lanesIn(discs.lanes & ~bounce.collided)) // pixels see their surfaces
+    {
+        const uint32_t pixel = block.flagsOf(i).pixel();
+        const SeenPlane& known = gathered.planes[pixel];
+        if (known.lookup == PixelLookup::Footprint || gathered.isSmall(known))
+            chosen |= 1u << i;
+        else if (known.lookup == PixelLookup::Compared &&
+                 (gathered.choosesPlanes || gathered.balances))
+            compares |= 1u << i;
+        else
+            continue;
+        setCorner(tile, pixel, i, pixels);
+    }
+    LaneMask lanes = chosen | compares;
+    if (!lanes) return;
+    planes.normal = bounce.surface.geometricNormal;
+    dotLanes(planes.normal, trianglePoints(bounce.surface), planes.offset);
+    FootprintLanes footprints;
+    tile.context.projection->footprints(pixels, planes, footprints);
+    for (const int i : lanesIn(lanes))
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
         SeenPlane& known = gathered.planes[pixel];
-        const bool isSmall = gathered.isSmall(known);
-        const bool compares = known.lookup == PixelLookup::Compared && !isSmall &&
-                              (gathered.choosesPlanes || gathered.balances);
-        if (known.lookup != PixelLookup::Footprint && !isSmall && !compares) continue;
-        pixels[i] = cornerOf(tile, pixel);
-        const Footprint footprint =
-            footprintOf(*tile.context.projection, pixels[i], planeOf(bounce, i));
-        if (!(footprint.radius > 0.0f) ||
-            !isOn(known.plane, footprint.radius, laneOf(queries.position, i),
-                  laneOf(queries.normal, i)))
+        if (!(footprints.radius[i] > 0.0f) ||
+            !isOn(known.plane, footprints.radius[i], laneOf(discs.position, i),
+                  laneOf(discs.normal, i)))
         {
             // The pixel sees more than one plane.
             if (gathered.choosesPlanes) known.lookup = PixelLookup::Disc;
+            lanes &= ~(1u << i);
             continue;
         }
-        if (gathered.choosesPlanes && compares)
+        if (gathered.choosesPlanes && ((compares >> i) & 1u))
         {
             const float radius = gathered.radius[pixel];
             known.discPixels =
-                kPi * radius * radius / (footprint.area * gathered.shrink2); // 0: no radius yet
+                kPi * radius * radius / (footprints.area[i] * gathered.shrink2); // 0: no radius yet
         }
-        setLane(queries.position, i, footprint.centre);
-        queries.radius[i] = footprint.radius;
-        (compares ? sums.compared : sums.chosen) |= 1u << i;
     }
-    queries.lanes = sums.chosen | sums.compared;
-    if (queries.lanes) addFound(tile, block, bounce, queries, pixels, sums);
+    sums.chosen = lanes & chosen;
+    sums.compared = lanes & compares;
+    if (!lanes) return;
+    const PhotonQueryLanes queries{footprints.centre, discs.normal,    discs.shadingNormal,
+                                   footprints.radius, discs.mostEdges, lanes};
+    addFound(tile, block, bounce, queries, pixels, sums);
 }
 
 void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
@@ -252,16 +296,13 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     const float significance = tile.context.photonUse == PhotonUse::Caustics
                                    ? kCausticSignificance
                                    : kIndirectSignificance;
+    LaneMask undecided = 0;
     for (const int i : lanesIn(queries.lanes & ~bounce.collided))
+        if (planes[block.flagsOf(i).pixel()].lookup == PixelLookup::Undecided) undecided |= 1u << i;
+    if (undecided) choosePlanes(tile, block, bounce, queries, undecided);
+    for (const int i : lanesIn(footprints.compared))
     {
-        const uint32_t pixel = block.flagsOf(i).pixel();
-        SeenPlane& known = planes[pixel];
-        if (known.lookup == PixelLookup::Undecided)
-        {
-            known = planeToCompare(tile, pixel, bounce, queries, i);
-            ++known.undecided;
-        }
-        if (!((footprints.compared >> i) & 1u)) continue;
+        SeenPlane& known = planes[block.flagsOf(i).pixel()];
         const float difference =
             luminance(laneOf(discRadiance, i)) - luminance(laneOf(footprints.radiance, i));
         if (!std::isfinite(difference * difference)) continue;

@@ -86,19 +86,36 @@ PhotonQueryLanes queriesOf(Tile& tile, const PathBlock& block, const Bounce& bou
 }
 
 /// Sets sums to f times power, summed over the photons in the discs of the queries' lanes.
-void gatherLanes(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
-                 PhotonSumLanes& sums)
+void gatherLanes(Tile& tile, const PhotonQueryLanes& queries, const PathBlock& block,
+                 const Bounce& bounce, PhotonSumLanes& sums)
 {
     const PhotonMap& map = *tile.context.photons;
-    const LaneMask lanes = queries.lanes;
-    queries.lanes = lanes & bounce.diffuse;
-    gatherDiffuse(map, queries, bounce.albedo, sums);
-    queries.lanes = lanes & ~bounce.diffuse;
-    if (!queries.lanes) return;
+    const LaneMask general = queries.lanes & ~bounce.diffuse;
+    if (!general) return gatherDiffuse(map, queries, bounce.albedo, sums);
     GatherLanes points{queries, {}, bounce.bsdfs, bounce.gathering & ~bounce.rough};
+    points.queries.lanes = queries.lanes & bounce.diffuse;
+    gatherDiffuse(map, points.queries, bounce.albedo, sums);
+    points.queries.lanes = general;
     for (int i = 0; i < kLanes; ++i)
         setLane(points.wo, i, -directionOf(block.rays.ray, i));
     gatherBsdf(map, points, sums, tile.gatherScratch);
+}
+
+/// Sets the radiance that the photons of discs become on their way to the eye: 0 in lanes without
+/// any.
+OSGRAYTRACE_KERNEL
+void radianceOf(const Vec3Lanes& throughput, const PhotonQueryLanes& queries,
+                const PhotonSumLanes& sums, Vec3Lanes& radiance)
+{
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const uint32_t in = laneBit(queries.lanes, i) & maskOf(sums.count[i] != 0);
+        const float perArea = 1.0f / (kPi * queries.radius[i] * queries.radius[i]);
+        radiance.x[i] = select(in, throughput.x[i] * sums.power.x[i] * perArea, 0.0f);
+        radiance.y[i] = select(in, throughput.y[i] * sums.power.y[i] * perArea, 0.0f);
+        radiance.z[i] = select(in, throughput.z[i] * sums.power.z[i] * perArea, 0.0f);
+    }
 }
 
 /// Returns those of the lanes whose pixels are in the block that compares discs, without those that
@@ -109,7 +126,7 @@ LaneMask comparedLanes(const GatheredPhotons& gathered, const PathBlock& block, 
     for (const int i : lanesIn(gathering))
     {
         const uint32_t pixel = block.flagsOf(i).pixel();
-        const bool near = gathered.planes && gathered.planes[pixel].edge == DiscEdge::Near;
+        const bool near = gathered.planes && gathered.planes[pixel].edge > DiscEdge::None;
         if (static_cast<int>(pixel) / kLanes == gathered.comparedBlock && !near) lanes |= 1u << i;
     }
     return lanes;
@@ -117,13 +134,15 @@ LaneMask comparedLanes(const GatheredPhotons& gathered, const PathBlock& block, 
 
 /// Adds the differences between each disc's radiance and that by the next smaller disc, whose
 /// photons are among those of the larger one. sums are those of the discs of the queries.
-void compareDiscs(Tile& tile, PhotonQueryLanes queries, const PathBlock& block,
-                  const Bounce& bounce, PhotonSumLanes sums)
+void compareDiscs(Tile& tile, const PhotonQueryLanes& discs, const PathBlock& block,
+                  const Bounce& bounce, const PhotonSumLanes& discSums)
 {
     GatheredPhotons& gathered = *tile.result.photons.gathered;
-    queries.lanes = comparedLanes(gathered, block, queries.lanes);
-    if (!queries.lanes) return;
-    PhotonSumLanes smaller;
+    const LaneMask compared = comparedLanes(gathered, block, discs.lanes);
+    if (!compared) return;
+    PhotonQueryLanes queries = discs;
+    queries.lanes = compared;
+    PhotonSumLanes sums = discSums, smaller;
     for (auto& differences : gathered.differences)
     {
         PhotonQueryLanes half = queries;
@@ -162,20 +181,21 @@ LaneMask blurredLanes(const Tile& tile, const PathBlock& block, const Bounce& bo
 /// Sums up the light of discs, and the part of it that is blur. Means of the light over discs are
 /// off by a multiple of the square of the radius, so two of them tell that: L(r) - L(r / 2) is
 /// three quarters of it [Richardson11].
-void measureBlur(Tile& tile, PhotonQueryLanes queries, const PathBlock& block, const Bounce& bounce,
-                 const PhotonSumLanes& sums)
+void measureBlur(Tile& tile, const PhotonQueryLanes& queries, const PathBlock& block,
+                 const Bounce& bounce, const PhotonSumLanes& sums)
 {
-    queries.lanes = blurredLanes(tile, block, bounce, queries.lanes);
-    if (!queries.lanes) return;
+    const LaneMask lanes = blurredLanes(tile, block, bounce, queries.lanes);
+    if (!lanes) return;
     if (!tile.blurred) tile.blurred = std::make_unique<BlurredLight>();
     GatheredPhotons& gathered = *tile.result.photons.gathered;
     PhotonQueryLanes half = queries;
-    for (const int i : lanesIn(queries.lanes))
+    half.lanes = lanes;
+    for (const int i : lanesIn(lanes))
         half.radius[i] = queries.radius[i] * kSmallerDisc;
     PhotonSumLanes smaller;
     gatherLanes(tile, half, block, bounce, smaller);
     constexpr float kArea = kSmallerDisc * kSmallerDisc;
-    for (const int i : lanesIn(queries.lanes))
+    for (const int i : lanesIn(lanes))
     {
         const float discArea = kPi * queries.radius[i] * queries.radius[i];
         const Vec3 scale = laneOf(block.throughput, i) / discArea;
@@ -247,29 +267,28 @@ void addPhotons(Tile& tile, const PathBlock& block, const Bounce& bounce)
     if (gathered.comparedBlock >= 0) compareDiscs(tile, queries, block, bounce, sums);
     measureBlur(tile, queries, block, bounce, sums);
     correctEdges(tile, block, bounce, queries, sums);
-    Vec3Lanes radiance = {};
+    Vec3Lanes radiance;
     const LaneMask firstHits = bounce.number > 0 || bounce.below ? 0 : ~bounce.collided;
+    radianceOf(block.throughput, queries, sums, radiance);
     for (const int i : lanesIn(queries.lanes))
     {
         if (sums.count[i] == 0) continue;
         const uint32_t pixel = block.flagsOf(i).pixel();
-        const Vec3 flux = laneOf(block.throughput, i) * laneOf(sums.power, i);
-        const float discArea = kPi * queries.radius[i] * queries.radius[i];
-        setLane(radiance, i, flux / discArea);
-        gathered.carried += luminance(flux) / discArea;
+        const Vec3 light = laneOf(radiance, i);
+        gathered.carried += luminance(light);
         if (gathered.seenStride && (pixel + gathered.seenFirst) % gathered.seenStride == 0 &&
             sums.count[i] <= kMostRecordedPhotons)
-            recordSeen(*tile.context.photons, laneOf(queries, i), luminance(flux) / discArea,
+            recordSeen(*tile.context.photons, laneOf(queries, i), luminance(light),
                        tile.gatherScratch.found, gathered.seen);
         if (gathered.separate)
         {
             gathered.count[pixel] += sums.count[i];
-            gathered.flux[pixel] += flux;
+            gathered.flux[pixel] += laneOf(block.throughput, i) * laneOf(sums.power, i);
         }
         else
         {
-            tile.sums.add(block.flagsOf(i), flux / discArea);
-            if ((firstHits >> i) & 1u) recordFirstHit(gathered, pixel, flux / discArea);
+            tile.sums.add(block.flagsOf(i), light);
+            if ((firstHits >> i) & 1u) recordFirstHit(gathered, pixel, light);
         }
     }
     chooseFootprints(tile, block, bounce, queries, radiance, footprints);

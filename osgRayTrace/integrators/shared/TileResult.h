@@ -55,6 +55,7 @@ enum class DiscEdge : uint8_t
 {
     Unknown, ///< no photons have been found yet
     None,
+    Straight, ///< the surface ends at one line
     Near,
 };
 
@@ -62,7 +63,10 @@ enum class DiscEdge : uint8_t
 /// PathFootprints.cpp.
 struct SeenPlane
 {
-    Plane plane; ///< set in pixels that are compared, or take the photons of their footprint
+    /// That of the first hit with photons, unless the pixel is compared, or takes the photons of its
+    /// footprint: then it is the plane for that.
+    Plane plane;
+    Plane line; ///< where the plane ends if edge is Straight: the part above it is empty
     PixelLookup lookup = PixelLookup::Undecided;
     DiscEdge edge = DiscEdge::Unknown;
     // Passes of those that may choose: before the pixel compared, and those that it compared.
