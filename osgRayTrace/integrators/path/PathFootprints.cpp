@@ -37,7 +37,8 @@ constexpr float kCausticSignificance = 2.0f, kIndirectSignificance = 3.0f;
 
 /// A footprint without a photon says little as long as fewer than so many are expected in it: by
 /// the photons of the disc, in all passes that were compared. The standard error is too small then.
-constexpr float kLeastExpected = 3.0f;
+/// Where photons bring all light, three let one in twenty pixels change over by chance.
+constexpr float kCausticExpected = 3.0f, kIndirectExpected = 5.0f;
 
 /// Sets the corner of a pixel with the least x and y: its place in the image.
 void setCorner(const Tile& tile, uint32_t pixel, int i, PixelLanes& pixels)
@@ -293,9 +294,9 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
     if (!planes || !tile.result.photons.gathered->choosesPlanes || bounce.number > 0 ||
         bounce.below)
         return;
-    const float significance = tile.context.photonUse == PhotonUse::Caustics
-                                   ? kCausticSignificance
-                                   : kIndirectSignificance;
+    const bool caustics = tile.context.photonUse == PhotonUse::Caustics;
+    const float significance = caustics ? kCausticSignificance : kIndirectSignificance;
+    const float expected = caustics ? kCausticExpected : kIndirectExpected;
     LaneMask undecided = 0;
     for (const int i : lanesIn(queries.lanes & ~bounce.collided))
         if (planes[block.flagsOf(i).pixel()].lookup == PixelLookup::Undecided) undecided |= 1u << i;
@@ -313,7 +314,7 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
             continue;
         const auto passes = static_cast<float>(known.compared);
         if (known.difference < 0.0f ||
-            passes * expectedPhotons(tile, laneOf(queries, i)) >= kLeastExpected)
+            passes * expectedPhotons(tile, laneOf(queries, i)) >= expected)
             known.lookup = PixelLookup::Footprint;
     }
 }
