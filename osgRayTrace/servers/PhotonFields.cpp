@@ -28,8 +28,8 @@ static_assert(sizeof(GatheredPhotons) == 8736);
 
 template <class Archive> void fieldsOf(Archive& a, SeenPlane& p)
 {
-    a(p.plane.normal, p.plane.offset, p.line.normal, p.line.offset, p.lookup, p.edge, p.undecided, p.compared, p.discPixels,
-      p.difference, p.squares);
+    a(p.plane.normal, p.plane.offset, p.line.normal, p.line.offset, p.lookup, p.edge, p.undecided,
+      p.compared, p.discPixels, p.difference, p.squares);
 }
 
 constexpr std::size_t kPlaneBytes = 2 * sizeof(Plane) + 3 * sizeof(float) + 4;

@@ -354,9 +354,9 @@ HitPoints* PhotonState::hitPoints(int tile, int pass)
 
 std::size_t PhotonState::viewBytes() const
 {
-    std::size_t bytes =
-        _firstRadii.size() * sizeof(float) + _statistics.size() * sizeof(LocalStatistics) +
-        _lookups.bytes() + _differences.size() * sizeof(DiscDifferences);
+    std::size_t bytes = _firstRadii.size() * sizeof(float) +
+                        _statistics.size() * sizeof(LocalStatistics) + _lookups.bytes() +
+                        _differences.size() * sizeof(DiscDifferences);
     bytes += _before.bytes();
     for (const HitPoints& hits : _hitPoints)
         bytes += sizeof(HitPoints) + hits.bytes();

@@ -63,8 +63,8 @@ enum class DiscEdge : uint8_t
 /// PathFootprints.cpp.
 struct SeenPlane
 {
-    /// That of the first hit with photons, unless the pixel is compared, or takes the photons of its
-    /// footprint: then it is the plane for that.
+    /// That of the first hit with photons. In pixels that are compared, or take the photons of
+    /// their footprint, it is the plane for that.
     Plane plane;
     Plane line; ///< where the plane ends if edge is Straight: the part above it is empty
     PixelLookup lookup = PixelLookup::Undecided;
