@@ -4,7 +4,8 @@
 // Rays run from a point above the disc's centre to points of the disc. A ray that meets the disc's
 // plane there, and nothing before, tells that the surface is there. If all that do so are aimed at
 // one side of a line, and all others at the other side, and if the line is one that the scene has,
-// the surface ends at the line: where a wall stands on it, or at an edge of one of its triangles.
+// and more rays beside it agree, the surface ends at the line: where a wall stands on it, or at an
+// edge of one of its triangles.
 #include "osgRayTrace/integrators/path/PathDiscProbes.h"
 
 #include "osgRayTrace/accel/Intersector.h"
@@ -23,6 +24,7 @@ constexpr float kProbeHeight = 0.5f; ///< of the point above the disc, over the 
 
 /// Rays within this share of the radius from a straight edge may meet either side of the edge.
 constexpr float kEdgeRounding = 1e-3f;
+constexpr float kBesideEdge = 0.02f;   ///< how far from an edge rays look for it, over the radius
 constexpr float kLeastEdgeSine = 0.2f; ///< between planes that meet in a straight edge
 
 /// Rays from a point above a disc to sixteen points of the disc.
@@ -99,18 +101,10 @@ void setPoints(const DiscFrame& disc, const Sectors& sectors, const FloatLanes& 
     }
 }
 
-/// Sends the rays. tolerance: how far from the disc's plane a surface may be to count as on it.
-void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, float tolerance,
-           Probes& probes)
+/// Sends rays to the targets. tolerance: how far from the disc's plane a surface may be to count as
+/// on it.
+void send(Tile& tile, const PhotonQuery& disc, float tolerance, Probes& probes)
 {
-    static const Sectors kSectors;
-    const ShadingFrame frame(disc.normal);
-    const float angle = 2.0f * kPi / kLanes * spread.turn;
-    const Vec3 x = disc.radius * std::cos(angle) * frame.tangent +
-                   disc.radius * std::sin(angle) * frame.bitangent;
-    const Vec3 y = glm::cross(disc.normal, x);
-    setPoints({plainOf(disc.position), plainOf(x), plainOf(y)}, kSectors, spread.share,
-              probes.targets);
     aimAt(plainOf(startAbove(disc)), probes.targets, 1.5f, probes.rays.ray);
     const TracedScene& traced = *tile.context.traced;
     traced.intersector().closestHits(probes.rays, kAllLanes, Coherence::Coherent);
@@ -125,6 +119,21 @@ void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, float tole
         if (std::fabs(height) <= tolerance && glm::dot(normal, plane.normal) >= kLeastNormalCosine)
             probes.on |= 1u << i;
     }
+}
+
+/// Sends rays to points that are spread over the disc.
+void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, float tolerance,
+           Probes& probes)
+{
+    static const Sectors kSectors;
+    const ShadingFrame frame(disc.normal);
+    const float angle = 2.0f * kPi / kLanes * spread.turn;
+    const Vec3 x = disc.radius * std::cos(angle) * frame.tangent +
+                   disc.radius * std::sin(angle) * frame.bitangent;
+    const Vec3 y = glm::cross(disc.normal, x);
+    setPoints({plainOf(disc.position), plainOf(x), plainOf(y)}, kSectors, spread.share,
+              probes.targets);
+    send(tile, disc, tolerance, probes);
 }
 
 /// Several sets of rays to one disc.
@@ -169,11 +178,38 @@ bool parts(const Plane& line, float rounding, const ProbeSets& probes)
     return true;
 }
 
+/// Sends rays to both sides of all of a line within the disc. Returns whether those before it meet
+/// the disc's plane, and those beyond do not: a body that overhangs the plane is no wall.
+bool isEdge(Tile& tile, const PhotonQuery& disc, const Plane& line, float tolerance)
+{
+    const float height = heightAbove(line, disc.position);
+    const float half2 = disc.radius * disc.radius - height * height;
+    if (!(half2 > 0.0f)) return false;
+    const Vec3 middle = disc.position - line.normal * height;
+    const Vec3 along = glm::cross(disc.normal, line.normal) * std::sqrt(half2);
+    constexpr int kPairs = kLanes / 2;
+    Probes probes;
+    for (int i = 0; i < kLanes; ++i)
+    {
+        const float place = (2.0f * static_cast<float>(i % kPairs) + 1.0f) / kPairs - 1.0f;
+        const float side = i < kPairs ? -kBesideEdge : kBesideEdge;
+        setLane(probes.targets, i, middle + along * place + line.normal * (side * disc.radius));
+    }
+    send(tile, disc, tolerance, probes);
+    return probes.on == (1u << kPairs) - 1u;
+}
+
 /// Returns the line that parts the rays that meet the disc's plane from the others: where a wall
 /// stands on the plane, or an edge of one of the triangles that they meet.
-std::optional<Plane> straightEdge(const Tile& tile, const Plane& plane, float rounding,
+std::optional<Plane> straightEdge(Tile& tile, const PhotonQuery& disc, float tolerance,
                                   const ProbeSets& probes)
 {
+    const Plane plane = planeOf(disc);
+    const auto isFound = [&](const std::optional<Plane>& line)
+    {
+        return line && parts(*line, kEdgeRounding * disc.radius, probes) &&
+               isEdge(tile, disc, *line, tolerance);
+    };
     for (const Probes& p : probes.sets)
     {
         const LaneMask off = p.surface.hits & ~p.on;
@@ -182,7 +218,7 @@ std::optional<Plane> straightEdge(const Tile& tile, const Plane& plane, float ro
         const Vec3 normal = laneOf(p.surface.geometricNormal, i);
         const Plane wall{normal, glm::dot(normal, laneOf(p.surface.position, i))};
         const std::optional<Plane> line = lineAtWall(plane, wall);
-        if (line && parts(*line, rounding, probes)) return line;
+        if (isFound(line)) return line;
         break;
     }
     uint32_t seen[2] = {kInvalid, kInvalid}; // the last triangle
@@ -199,7 +235,7 @@ std::optional<Plane> straightEdge(const Tile& tile, const Plane& plane, float ro
             {
                 const std::optional<Plane> line =
                     lineAtEdge(plane, vertices[k], vertices[(k + 1) % 3], vertices[(k + 2) % 3]);
-                if (line && parts(*line, rounding, probes)) return line;
+                if (isFound(line)) return line;
             }
         }
     return std::nullopt;
@@ -261,8 +297,7 @@ FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float tolerance, uint32_
         isClear &= probes.sets[k].on == kAllLanes;
     }
     if (isClear) return {DiscEdge::None, {}};
-    const std::optional<Plane> line =
-        straightEdge(tile, planeOf(disc), kEdgeRounding * disc.radius, probes);
+    const std::optional<Plane> line = straightEdge(tile, disc, tolerance, probes);
     return line ? FoundEdge{DiscEdge::Straight, *line} : FoundEdge{};
 }
 
