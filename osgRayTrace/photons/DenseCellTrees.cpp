@@ -214,9 +214,10 @@ void DenseCellTrees::visitNode(const PhotonQuery& q, const DenseCell& denseCell,
     {
         const Vec3d farthest = glm::max(glm::abs(low), glm::abs(high));
         const float turned = glm::distance(q.normal, node.normal);
+        const double flat = std::min(plane, double(gapTolerance(q.position, q.radius)));
         const bool inside =
             glm::dot(farthest, farthest) <= squared(radius * (1.0 - kRadiusError)) &&
-            std::fabs(off) + thickness <= plane - radius * kRadiusError &&
+            std::fabs(off) + thickness <= flat - radius * kRadiusError &&
             node.leastCosine - turned > kCosineError &&
             glm::dot(q.normal, node.normal) - node.normalSpread >=
                 kLeastNormalCosine + kCosineError &&

@@ -5,6 +5,7 @@
 #include "osgRayTrace/base/Lanes.h"
 #include "osgRayTrace/base/Math.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace osgRayTrace::engine
@@ -83,5 +84,20 @@ struct FoundPhoton
 /// the radius, and photons whose own surface is turned away by more than 60 degrees.
 constexpr float kPlaneShare = 0.25f;
 constexpr float kLeastNormalCosine = 0.5f;
+
+/// A surface that is hardly turned from a disc's plane and yet far from it is another one, behind a
+/// gap. On a round body a photon at distance d whose normal differs by the angle a is no farther
+/// from the plane than d sin a. Left out are photons that are farther by more than kGapShare of the
+/// radius and the rounding of places.
+constexpr float kGapShare = 1.0f / 32.0f;
+
+/// Returns how far from its plane a disc takes photons whose surface is not turned from it
+/// [length].
+inline float gapTolerance(Vec3 position, float radius)
+{
+    constexpr float kRounding = 0x1p-21f; // of places, over their largest coordinate
+    const Vec3 size = glm::abs(position);
+    return kGapShare * radius + kRounding * std::max(size.x, std::max(size.y, size.z));
+}
 
 } // namespace osgRayTrace::engine

@@ -60,6 +60,7 @@ struct PlainDisc
     PlainVec3 position, normal;
     float radius2;       ///< square of the radius; if negative, no photon is in the disc
     float planeDistance; ///< photons farther from the disc's plane are not in it
+    float gapDistance;   ///< nor are these, unless they are turned: see kGapShare
     int32_t mostEdges;
 };
 
@@ -69,6 +70,7 @@ struct DiscTest
     uint32_t in;     ///< all bits or none
     float distance2; ///< square of the distance from the disc's centre
     float off;       ///< distance from the disc's plane
+    float tilt2;     ///< square of the sine of the angle between the normals
 };
 
 /// Tests photon k.
@@ -80,12 +82,17 @@ OSGRAYTRACE_INLINE DiscTest insideDisc(const PhotonColumns& p, int k, PlainDisc 
     const float off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
     const float side = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
     const uint32_t packed = p.normal[k];
-    const float turned =
-        byteOf(packed, 0) * normal.x + byteOf(packed, 8) * normal.y + byteOf(packed, 16) * normal.z;
+    const PlainVec3 own{byteOf(packed, 0), byteOf(packed, 8), byteOf(packed, 16)};
+    const float turned = dot(own, normal);
+    // The length, as three bytes hold it, is not quite 1.
+    const float tilt2 = dot(own, own) - turned * turned;
+    const float gap = off - disc.gapDistance;
+    const uint32_t same = maskOf(gap <= 0.0f) | maskOf(gap * gap <= distance2 * tilt2);
     const uint32_t shortEnough = maskOf(edgesOf(packed) <= disc.mostEdges);
     const uint32_t in = maskOf(distance2 <= disc.radius2) & maskOf(off <= disc.planeDistance) &
-                        maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) & shortEnough;
-    return {in, distance2, off};
+                        same & maskOf(side > 0.0f) & maskOf(turned >= kLeastNormalCosine) &
+                        shortEnough;
+    return {in, distance2, off, tilt2};
 }
 
 /// Returns the ratio of photon k's cosines, to the shading normal and to the disc's normal; 0 if

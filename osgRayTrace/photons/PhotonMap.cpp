@@ -25,13 +25,19 @@ struct LaneSums
 struct PlainQuery
 {
     explicit PlainQuery(const PhotonQuery& q)
-        : disc{plainOf(q.position), plainOf(q.normal), q.radius * q.radius, q.radius * kPlaneShare,
+        : disc{plainOf(q.position),
+               plainOf(q.normal),
+               q.radius * q.radius,
+               q.radius * kPlaneShare,
+               gapTolerance(q.position, q.radius),
                static_cast<int32_t>(q.mostEdges)},
+          rounding(gapTolerance(q.position, 0.0f)),
           shadingNormal(plainOf(q.shadingNormal)),
           flat(q.shadingNormal == q.normal)
     {
     }
     PlainDisc disc;
+    float rounding; ///< of gapTolerance
     PlainVec3 shadingNormal;
     bool flat; ///< the shading normal is the geometric one: every weight is 1
 };
@@ -72,21 +78,32 @@ void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const 
         addBlocks<false>(columns, begin, end, query, sums);
 }
 
-/// Returns which of sixteen photons are in the disc, and sets their distances: see DiscTest.
+/// Returns the square of the least radius with which a look-up finds a photon. rounding: the part
+/// of gapTolerance that is not of the radius.
+OSGRAYTRACE_INLINE float leastRadius2(const DiscTest& test, float rounding)
+{
+    const float tilted = std::sqrt(test.distance2 * select(test.tilt2 > 0.0f, test.tilt2, 0.0f));
+    const float gap = (test.off - rounding - tilted) * ((1.0f - 0x1p-18f) / kGapShare);
+    const float plane = test.off / kPlaneShare;
+    const float off = select(gap > plane, gap, plane);
+    return select(off * off > test.distance2, off * off, test.distance2);
+}
+
+/// Returns which of sixteen photons are in the disc, and sets the squares of their leastRadius2.
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
-                     const PlainQuery& query, FloatLanes& distance2, FloatLanes& off)
+                     const PlainQuery& query, FloatLanes& radius2)
 {
     const PhotonColumns p = columns.from(block);
     const PlainDisc disc = query.disc;
+    const float rounding = query.rounding;
     const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
     {
         const DiscTest test = insideDisc(p, i, disc);
-        distance2[i] = test.distance2;
-        off[i] = test.off;
+        radius2[i] = leastRadius2(test, rounding);
         inside |= bitOfLane(test.in & maskOf(i < left), i);
     }
     return inside;
@@ -238,20 +255,20 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     return sum;
 }
 
-/// Calls add(block, lanes, distance2, off) for the photons of the disc, until it returns false.
+/// Calls add(block, lanes, radius2) for the photons of the disc, until it returns false.
 template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, const Add& add) const
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
     const PhotonColumns all = columns();
     const PlainQuery plain(query);
-    FloatLanes distance2, off;
+    FloatLanes radius2;
     const auto read = [&](Range range)
     {
         for (uint32_t block = range.begin; block < range.end; block += kLanes)
         {
-            const LaneMask lanes = insideLanes(all, block, range.end, plain, distance2, off);
-            if (lanes && !add(block, lanes, distance2, off)) return false;
+            const LaneMask lanes = insideLanes(all, block, range.end, plain, radius2);
+            if (lanes && !add(block, lanes, radius2)) return false;
         }
         return true;
     };
@@ -270,7 +287,7 @@ template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, cons
 void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) const
 {
     forEachFound(query,
-                 [&](uint32_t block, LaneMask lanes, const FloatLanes&, const FloatLanes&)
+                 [&](uint32_t block, LaneMask lanes, const FloatLanes&)
                  {
                      for (const int i : lanesIn(lanes))
                          found.push_back(block + static_cast<uint32_t>(i));
@@ -283,7 +300,7 @@ void PhotonMap::findLane(const PhotonQueryLanes& queries, int lane,
                          std::vector<FoundPhoton>& found) const
 {
     forEachFound(laneOf(queries, lane),
-                 [&](uint32_t block, LaneMask photons, const FloatLanes&, const FloatLanes&)
+                 [&](uint32_t block, LaneMask photons, const FloatLanes&)
                  {
                      for (const int i : lanesIn(photons))
                          found.push_back({block + static_cast<uint32_t>(i), 1u << lane});
@@ -297,13 +314,10 @@ bool PhotonMap::findDistances(const PhotonQuery& query, std::size_t most,
     std::vector<float>& radii2 = distances._radius2;
     radii2.clear();
     forEachFound(query,
-                 [&](uint32_t, LaneMask lanes, const FloatLanes& distance2, const FloatLanes& off)
+                 [&](uint32_t, LaneMask lanes, const FloatLanes& radius2)
                  {
                      for (const int i : lanesIn(lanes))
-                     {
-                         const float plane = off[i] / kPlaneShare;
-                         radii2.push_back(std::max(distance2[i], plane * plane));
-                     }
+                         radii2.push_back(radius2[i]);
                      return radii2.size() <= most;
                  });
     return radii2.size() <= most;

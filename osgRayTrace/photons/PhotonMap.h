@@ -22,7 +22,7 @@ class NeighbourDistances
 public:
     std::size_t size() const { return _radius2.size(); }
 
-    /// Returns the largest radius of a look-up whose disc holds no more than count photons, to 5e-7
+    /// Returns the largest radius of a look-up whose disc holds no more than count photons, to 5e-6
     /// of the radius; infinity if the disc may hold all that were found. Reorders the distances.
     float radiusOfNearest(std::size_t count);
 

@@ -25,7 +25,7 @@ constexpr uint32_t kMostTogether = 512;
 /// group have a negative radius2.
 struct Discs
 {
-    FloatLanes radius2, plane;
+    FloatLanes radius2, plane, gap;
 };
 
 OSGRAYTRACE_KERNEL
@@ -99,6 +99,7 @@ Discs discsOf(const PhotonQueryLanes& q, LaneMask group)
         const bool in = (group >> i) & 1u;
         discs.radius2[i] = in ? q.radius[i] * q.radius[i] : -1.0f;
         discs.plane[i] = q.radius[i] * kPlaneShare;
+        discs.gap[i] = gapTolerance(laneOf(q.position, i), q.radius[i]);
     }
     return discs;
 }
@@ -106,8 +107,8 @@ Discs discsOf(const PhotonQueryLanes& q, LaneMask group)
 OSGRAYTRACE_INLINE PlainDisc discOf(const PhotonQueryLanes& q, const Discs& discs,
                                     int32_t mostEdges, int i)
 {
-    return {plainOf(q.position, i), plainOf(q.normal, i), discs.radius2[i], discs.plane[i],
-            mostEdges};
+    return {plainOf(q.position, i), plainOf(q.normal, i), discs.radius2[i],
+            discs.plane[i],         discs.gap[i],         mostEdges};
 }
 
 /// True if all shading normals are the geometric ones.

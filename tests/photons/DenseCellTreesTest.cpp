@@ -44,7 +44,7 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
     {
         const Vec3 d = p.position - q.position;
         if (!(glm::dot(d, d) <= q.radius * q.radius)) continue;
-        if (!(std::fabs(glm::dot(d, q.normal)) <= kPlaneShare * q.radius)) continue;
+        if (!(std::fabs(glm::dot(d, q.normal)) <= gapTolerance(q.position, q.radius))) continue;
         if (!(glm::dot(p.wi, q.normal) > 0.0f) || p.edges > q.mostEdges) continue;
         if (glm::dot(p.normal, q.normal) < kLeastNormalCosine) continue;
         ++sum.count;
@@ -98,7 +98,7 @@ TEST_CASE("dense cells: what a search through all photons finds, added up or rea
             if (map.work(q) < expected.count) addedUp += expected.count - map.work(q);
         }
     }
-    CHECK(addedUp > 500000);
+    CHECK(addedUp > 400000);
 }
 
 TEST_CASE("dense cells: small discs and whole ones read little", "[photons][stability 42]")

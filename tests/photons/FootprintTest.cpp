@@ -340,6 +340,39 @@ TEST_CASE("disc edges: SPPM loses no light beside straight edges, and finds none
     }
 }
 
+// Two sheets shine and face the camera, one close behind the other. Discs on the front sheet are
+// much larger than the gap, whose light would make the picture 5 % too bright and more.
+TEST_CASE("disc edges: light in a gap behind a thin sheet is not seen on the sheet",
+          "[photons][statistics]")
+{
+    constexpr int kWidth = 48, kBounces = 12;
+    constexpr double kAlbedo = 0.7;
+    const Material wall = shiningWall(kAlbedo);
+    const double truth = evenRadiance(kAlbedo, kBounces);
+    for (const float gap : {0.01f, 0.004f})
+    {
+        SceneBuilder builder;
+        addRoom(builder, wall, 1);
+        const Vec3 corner(-0.6f, -0.5f, -0.3f), u(0.9f, 0.2f, 0.1f), v(-0.15f, 0.8f, 0.3f);
+        builder.addEmissive(tiledQuad(corner, u, v, 1), wall);
+        const Vec3 behind = glm::normalize(glm::cross(v, u)) * gap;
+        builder.addEmissive(tiledQuad(corner + behind, u, v, 1), wall);
+        const auto traced = builder.build();
+        const View view =
+            perspectiveView({0.05, 0.02, 0.95}, {0, 0, -1}, {0, 1, 0}, 60.0, kWidth, kWidth);
+        Estimate all;
+        for (uint32_t seed = 0; seed < 4; ++seed)
+        {
+            RenderOptions options = optionsOf(IntegratorKind::Sppm, kBounces, seed);
+            options.photons = 1 << 15;
+            options.photonGuiding = false;
+            all.add(double(render(traced, view, options, 24).mean().y) / truth);
+        }
+        CAPTURE(gap, all.mean(), all.standardError());
+        CHECK(std::abs(all.mean() - 1.0) < 0.006);
+    }
+}
+
 // The floor goes on behind a wall of no thickness, and gets thirty times as much light there. The
 // light comes by way of the ceiling, as SPPM has no photons of what comes straight from lamps. The
 // standard errors are 2 % of the pixels beside the wall, and 0.7 % of all.

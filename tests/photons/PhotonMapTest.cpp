@@ -39,7 +39,7 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
     {
         const Vec3 d = p.position - q.position;
         const bool inside = glm::dot(d, d) <= q.radius * q.radius &&
-                            std::fabs(glm::dot(d, q.normal)) <= kPlaneShare * q.radius;
+                            std::fabs(glm::dot(d, q.normal)) <= gapTolerance(q.position, q.radius);
         if (!inside || !(glm::dot(p.wi, q.normal) > 0.0f)) continue;
         if (glm::dot(p.normal, q.normal) < kLeastNormalCosine) continue;
         if (p.edges > q.mostEdges) continue;
@@ -156,12 +156,15 @@ TEST_CASE("photon map: slanted discs, up to the rounding of their rims", "[photo
             for (const Photon& p : photons)
             {
                 const Vec3d d = Vec3d(p.position) - Vec3d(q.position), n(q.normal);
-                // The largest excess over the four limits; normals are stored in bytes.
+                // The largest excess over the limits; normals are stored in bytes.
+                const double off = std::fabs(glm::dot(d, n)), cosine = glm::dot(Vec3d(p.normal), n);
+                const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
+                const double gap =
+                    off - double(gapTolerance(q.position, q.radius)) - glm::length(d) * sine;
                 const double excess = std::max(
-                    std::max(glm::length(d) / double(q.radius) - 1.0,
-                             std::fabs(glm::dot(d, n)) / (double(kPlaneShare * q.radius)) - 1.0),
-                    std::max(-glm::dot(Vec3d(p.wi), n),
-                             (double(kLeastNormalCosine) - glm::dot(Vec3d(p.normal), n)) * 1e-4));
+                    {glm::length(d) / double(q.radius) - 1.0,
+                     off / (double(kPlaneShare * q.radius)) - 1.0, -glm::dot(Vec3d(p.wi), n),
+                     gap / double(q.radius) * 1e-4, (double(kLeastNormalCosine) - cosine) * 1e-4});
                 least += excess < -2e-6;
                 most += excess <= 2e-6;
             }

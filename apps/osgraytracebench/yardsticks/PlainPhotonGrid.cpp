@@ -70,7 +70,8 @@ PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
               y1 = cellOf(at.y + q.radius, _cellsPerUnit);
     const int z0 = cellOf(at.z - q.radius, _cellsPerUnit),
               z1 = cellOf(at.z + q.radius, _cellsPerUnit);
-    const float radius2 = q.radius * q.radius, planeDistance = q.radius * kPlaneShare;
+    const float radius2 = q.radius * q.radius, planeDistance = q.radius * kPlaneShare,
+                gapDistance = gapTolerance(q.position, q.radius);
 
     PhotonSum sum;
     uint32_t visited[kMostCells];
@@ -94,9 +95,13 @@ PhotonSum PlainPhotonGrid::gatherFrom(const PhotonQuery& query) const
                     const Photon& p = _photons[k];
                     const Vec3 d = p.position - q.position;
                     if (!(glm::dot(d, d) <= radius2)) continue;
-                    if (!(std::fabs(glm::dot(d, q.normal)) <= planeDistance)) continue;
+                    const float off = std::fabs(glm::dot(d, q.normal));
+                    if (!(off <= planeDistance)) continue;
                     if (!(glm::dot(p.wi, q.normal) > 0.0f)) continue;
-                    if (!(glm::dot(p.normal, q.normal) >= kLeastNormalCosine)) continue;
+                    const float cosine = glm::dot(p.normal, q.normal), gap = off - gapDistance;
+                    if (!(cosine >= kLeastNormalCosine)) continue;
+                    if (gap > 0.0f && gap * gap > glm::dot(d, d) * (1.0f - cosine * cosine))
+                        continue;
                     sum.power += p.power;
                     ++sum.count;
                 }

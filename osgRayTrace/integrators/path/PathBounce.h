@@ -361,11 +361,20 @@ void chooseFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
                       const FootprintSums& footprints);
 
 /// Returns whether a surface is on a plane as photons have to be that a look-up with this radius
-/// finds.
+/// finds. distance: from the look-up's centre.
+inline bool isOn(const Plane& plane, float radius, float distance, Vec3 point, Vec3 normal)
+{
+    const float height = std::fabs(heightAbove(plane, point));
+    const float cosine = glm::dot(plane.normal, normal);
+    if (!(height <= kPlaneShare * radius && cosine >= kLeastNormalCosine)) return false;
+    const float gap = height - gapTolerance(point, radius);
+    return gap <= 0.0f || gap * gap <= distance * distance * (1.0f - cosine * cosine);
+}
+
+/// The same for all places within the radius.
 inline bool isOn(const Plane& plane, float radius, Vec3 point, Vec3 normal)
 {
-    return std::fabs(heightAbove(plane, point)) <= kPlaneShare * radius &&
-           glm::dot(plane.normal, normal) >= kLeastNormalCosine;
+    return isOn(plane, radius, radius, point, normal);
 }
 
 /// Corrects the sums of discs at first hits that reach beyond the edge of their surface.

@@ -63,7 +63,7 @@ void decideTogether(Tile& tile, const PathBlock& block, const PhotonQueryLanes& 
         least = std::min(least, queries.radius[i]);
     const PhotonQuery disc = discAround(queries, lanes);
     if (!(disc.radius <= kLargestTogether * least)) return;
-    const FoundEdge found = findEdge(tile, disc, kPlaneShare * least, block.seed[firstLane(lanes)]);
+    const FoundEdge found = findEdge(tile, disc, least, block.seed[firstLane(lanes)]);
     if (found.edge == DiscEdge::Unknown) return;
     for (const int i : lanesIn(lanes))
     {

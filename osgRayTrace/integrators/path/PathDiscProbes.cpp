@@ -101,9 +101,17 @@ void setPoints(const DiscFrame& disc, const Sectors& sectors, const FloatLanes& 
     }
 }
 
-/// Sends rays to the targets. tolerance: how far from the disc's plane a surface may be to count as
-/// on it.
-void send(Tile& tile, const PhotonQuery& disc, float tolerance, Probes& probes)
+/// What surfaces have to be like to count as on a disc.
+struct OnDisc
+{
+    float radius; ///< with which photons are looked up
+    /// Tilted surfaces may be farther from the plane, as photons may, whose disc has this centre.
+    /// Nothing: for several discs.
+    std::optional<Vec3> centre;
+};
+
+/// Sends rays to the targets.
+void send(Tile& tile, const PhotonQuery& disc, const OnDisc& onDisc, Probes& probes)
 {
     aimAt(plainOf(startAbove(disc)), probes.targets, 1.5f, probes.rays.ray);
     const TracedScene& traced = *tile.context.traced;
@@ -114,15 +122,15 @@ void send(Tile& tile, const PhotonQuery& disc, float tolerance, Probes& probes)
     probes.on = 0;
     for (const int i : lanesIn(probes.surface.hits))
     {
-        const Vec3 normal = laneOf(probes.surface.geometricNormal, i);
-        const float height = heightAbove(plane, laneOf(probes.surface.position, i));
-        if (std::fabs(height) <= tolerance && glm::dot(normal, plane.normal) >= kLeastNormalCosine)
+        const Vec3 point = laneOf(probes.surface.position, i);
+        const float distance = onDisc.centre ? glm::distance(point, *onDisc.centre) : 0.0f;
+        if (isOn(plane, onDisc.radius, distance, point, laneOf(probes.surface.geometricNormal, i)))
             probes.on |= 1u << i;
     }
 }
 
 /// Sends rays to points that are spread over the disc.
-void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, float tolerance,
+void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, const OnDisc& onDisc,
            Probes& probes)
 {
     static const Sectors kSectors;
@@ -133,7 +141,7 @@ void probe(Tile& tile, const PhotonQuery& disc, const Spread& spread, float tole
     const Vec3 y = glm::cross(disc.normal, x);
     setPoints({plainOf(disc.position), plainOf(x), plainOf(y)}, kSectors, spread.share,
               probes.targets);
-    send(tile, disc, tolerance, probes);
+    send(tile, disc, onDisc, probes);
 }
 
 /// Several sets of rays to one disc.
@@ -180,7 +188,7 @@ bool parts(const Plane& line, float rounding, const ProbeSets& probes)
 
 /// Sends rays to both sides of all of a line within the disc. Returns whether those before it meet
 /// the disc's plane, and those beyond do not: a body that overhangs the plane is no wall.
-bool isEdge(Tile& tile, const PhotonQuery& disc, const Plane& line, float tolerance)
+bool isEdge(Tile& tile, const PhotonQuery& disc, const Plane& line, const OnDisc& onDisc)
 {
     const float height = heightAbove(line, disc.position);
     const float half2 = disc.radius * disc.radius - height * height;
@@ -195,20 +203,20 @@ bool isEdge(Tile& tile, const PhotonQuery& disc, const Plane& line, float tolera
         const float side = i < kPairs ? -kBesideEdge : kBesideEdge;
         setLane(probes.targets, i, middle + along * place + line.normal * (side * disc.radius));
     }
-    send(tile, disc, tolerance, probes);
+    send(tile, disc, onDisc, probes);
     return probes.on == (1u << kPairs) - 1u;
 }
 
 /// Returns the line that parts the rays that meet the disc's plane from the others: where a wall
 /// stands on the plane, or an edge of one of the triangles that they meet.
-std::optional<Plane> straightEdge(Tile& tile, const PhotonQuery& disc, float tolerance,
+std::optional<Plane> straightEdge(Tile& tile, const PhotonQuery& disc, const OnDisc& onDisc,
                                   const ProbeSets& probes)
 {
     const Plane plane = planeOf(disc);
     const auto isFound = [&](const std::optional<Plane>& line)
     {
         return line && parts(*line, kEdgeRounding * disc.radius, probes) &&
-               isEdge(tile, disc, *line, tolerance);
+               isEdge(tile, disc, *line, onDisc);
     };
     for (const Probes& p : probes.sets)
     {
@@ -273,7 +281,7 @@ DiscShare shareOf(Tile& tile, const PhotonQuery& disc, uint32_t seed)
     sobol2Ordered(tile.context.key.index, dimensionSeed(seed, DimensionDiscEdge), turn, ring);
     const float tolerance = kPlaneShare * disc.radius;
     Probes probes;
-    probe(tile, disc, evenly(turn, ring), tolerance, probes);
+    probe(tile, disc, evenly(turn, ring), {disc.radius, disc.position}, probes);
     DiscShare result;
     result.share = static_cast<float>(countLanes(probes.on)) / kLanes;
     for (const int i : lanesIn(probes.surface.hits & ~probes.on))
@@ -282,8 +290,9 @@ DiscShare shareOf(Tile& tile, const PhotonQuery& disc, uint32_t seed)
     return result;
 }
 
-FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float tolerance, uint32_t seed)
+FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float radius, uint32_t seed)
 {
+    const OnDisc onDisc{radius, std::nullopt};
     float turn, ring;
     sobol2Ordered(tile.context.key.index, dimensionSeed(seed, DimensionDiscEdge), turn, ring);
     const Spread spreads[ProbeSets::kCount] = {
@@ -293,11 +302,11 @@ FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float tolerance, uint32_
     bool isClear = true;
     for (int k = 0; k < ProbeSets::kCount; ++k)
     {
-        probe(tile, disc, spreads[k], tolerance, probes.sets[k]);
+        probe(tile, disc, spreads[k], onDisc, probes.sets[k]);
         isClear &= probes.sets[k].on == kAllLanes;
     }
     if (isClear) return {DiscEdge::None, {}};
-    const std::optional<Plane> line = straightEdge(tile, disc, tolerance, probes);
+    const std::optional<Plane> line = straightEdge(tile, disc, onDisc, probes);
     return line ? FoundEdge{DiscEdge::Straight, *line} : FoundEdge{};
 }
 

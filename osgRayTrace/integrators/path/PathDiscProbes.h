@@ -35,8 +35,7 @@ struct FoundEdge
     Plane line;                        ///< SeenPlane::line if edge is Straight
 };
 
-/// Sends more rays over a disc. tolerance: how far from the disc's plane a surface may be to count
-/// as on it [length].
-FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float tolerance, uint32_t seed);
+/// Sends more rays over a disc around several. radius: the least of these.
+FoundEdge findEdge(Tile& tile, const PhotonQuery& disc, float radius, uint32_t seed);
 
 } // namespace osgRayTrace::engine
