@@ -98,13 +98,13 @@ TEST_CASE("stability 44: nothing leaks through a thin wall, round a corner or ov
     }
     CHECK(close > 50 * 100); // without the limits all of them would have been found
 
-    // A lower floor of the same direction contributes while it is within a quarter of the radius,
+    // A lower floor of the same direction contributes while it is within kGapShare of the radius,
     // and not beyond.
     constexpr float kStep = 0.004f;
     const Vec3 above(kThickness + 0.1f, 0.0f, kStep);
-    CHECK(map.gather(query(above, up, 4.1f * kStep)).count > 1000);
-    CHECK(map.gather(query(above, up, 3.9f * kStep)).count == 0);
-    CHECK(near(photons, above, 3.9f * kStep) > 1000);
+    CHECK(map.gather(query(above, up, 33.0f * kStep)).count > 1000);
+    CHECK(map.gather(query(above, up, 31.0f * kStep)).count == 0);
+    CHECK(near(photons, above, 31.0f * kStep) > 1000);
     // A floor that slopes by less than 60 degrees finds the photons; a steeper one finds none.
     const auto slope = [](double degrees)
     { return Vec3(std::sin(glm::radians(degrees)), 0.0, std::cos(glm::radians(degrees))); };
