@@ -82,10 +82,10 @@ OSGRAYTRACE_INLINE DiscTest insideDisc(const PhotonColumns& p, int k, PlainDisc 
     const float off = std::fabs(dx * normal.x + dy * normal.y + dz * normal.z);
     const float side = p.wiX[k] * normal.x + p.wiY[k] * normal.y + p.wiZ[k] * normal.z;
     const uint32_t packed = p.normal[k];
-    const PlainVec3 own{byteOf(packed, 0), byteOf(packed, 8), byteOf(packed, 16)};
-    const float turned = dot(own, normal);
+    const float ownX = byteOf(packed, 0), ownY = byteOf(packed, 8), ownZ = byteOf(packed, 16);
+    const float turned = ownX * normal.x + ownY * normal.y + ownZ * normal.z;
     // The length, as three bytes hold it, is not quite 1.
-    const float tilt2 = dot(own, own) - turned * turned;
+    const float tilt2 = ownX * ownX + ownY * ownY + ownZ * ownZ - turned * turned;
     const float gap = off - disc.gapDistance;
     const uint32_t same = maskOf(gap <= 0.0f) | maskOf(gap * gap <= distance2 * tilt2);
     const uint32_t shortEnough = maskOf(edgesOf(packed) <= disc.mostEdges);

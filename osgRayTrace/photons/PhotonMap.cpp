@@ -31,13 +31,11 @@ struct PlainQuery
                q.radius * kPlaneShare,
                gapTolerance(q.position, q.radius),
                static_cast<int32_t>(q.mostEdges)},
-          rounding(gapTolerance(q.position, 0.0f)),
           shadingNormal(plainOf(q.shadingNormal)),
           flat(q.shadingNormal == q.normal)
     {
     }
     PlainDisc disc;
-    float rounding; ///< of gapTolerance
     PlainVec3 shadingNormal;
     bool flat; ///< the shading normal is the geometric one: every weight is 1
 };
@@ -78,32 +76,40 @@ void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const 
         addBlocks<false>(columns, begin, end, query, sums);
 }
 
-/// Returns the square of the least radius with which a look-up finds a photon. rounding: the part
-/// of gapTolerance that is not of the radius.
-OSGRAYTRACE_INLINE float leastRadius2(const DiscTest& test, float rounding)
+/// Where sixteen photons are in a disc: see DiscTest.
+struct DiscPlaces
 {
-    const float tilted = std::sqrt(test.distance2 * select(test.tilt2 > 0.0f, test.tilt2, 0.0f));
-    const float gap = (test.off - rounding - tilted) * ((1.0f - 0x1p-18f) / kGapShare);
-    const float plane = test.off / kPlaneShare;
-    const float off = select(gap > plane, gap, plane);
-    return select(off * off > test.distance2, off * off, test.distance2);
+    FloatLanes distance2, off, tilt2;
+};
+
+/// Returns the square of the least radius with which a look-up finds photon i. rounding: the part
+/// of gapTolerance that is not of the radius.
+float leastRadius2(const DiscPlaces& places, int i, float rounding)
+{
+    const float distance2 = places.distance2[i], off = places.off[i];
+    const float tilted = std::sqrt(distance2 * std::max(places.tilt2[i], 0.0f));
+    // Rounding of the square root must not make the radius larger.
+    const float gap = (off - rounding - tilted) * ((1.0f - 0x1p-18f) / kGapShare);
+    const float plane = std::max(off / kPlaneShare, gap);
+    return std::max(distance2, plane * plane);
 }
 
-/// Returns which of sixteen photons are in the disc, and sets the squares of their leastRadius2.
+/// Returns which of sixteen photons are in the disc, and where.
 OSGRAYTRACE_KERNEL
 LaneMask insideLanes(const PhotonColumns& columns, uint32_t block, uint32_t end,
-                     const PlainQuery& query, FloatLanes& radius2)
+                     const PlainQuery& query, DiscPlaces& places)
 {
     const PhotonColumns p = columns.from(block);
     const PlainDisc disc = query.disc;
-    const float rounding = query.rounding;
     const int left = static_cast<int>(end - block);
     LaneMask inside = 0;
     OSGRAYTRACE_SIMD_OR(inside)
     for (int i = 0; i < kLanes; ++i)
     {
         const DiscTest test = insideDisc(p, i, disc);
-        radius2[i] = leastRadius2(test, rounding);
+        places.distance2[i] = test.distance2;
+        places.off[i] = test.off;
+        places.tilt2[i] = test.tilt2;
         inside |= bitOfLane(test.in & maskOf(i < left), i);
     }
     return inside;
@@ -255,20 +261,20 @@ PhotonSum PhotonMap::gather(const PhotonQuery& query) const
     return sum;
 }
 
-/// Calls add(block, lanes, radius2) for the photons of the disc, until it returns false.
+/// Calls add(block, lanes, places) for the photons of the disc, until it returns false.
 template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, const Add& add) const
 {
     Range ranges[kMaxRanges];
     const int count = rangesOf(query, ranges);
     const PhotonColumns all = columns();
     const PlainQuery plain(query);
-    FloatLanes radius2;
+    DiscPlaces places;
     const auto read = [&](Range range)
     {
         for (uint32_t block = range.begin; block < range.end; block += kLanes)
         {
-            const LaneMask lanes = insideLanes(all, block, range.end, plain, radius2);
-            if (lanes && !add(block, lanes, radius2)) return false;
+            const LaneMask lanes = insideLanes(all, block, range.end, plain, places);
+            if (lanes && !add(block, lanes, places)) return false;
         }
         return true;
     };
@@ -287,7 +293,7 @@ template <class Add> void PhotonMap::forEachFound(const PhotonQuery& query, cons
 void PhotonMap::find(const PhotonQuery& query, std::vector<uint32_t>& found) const
 {
     forEachFound(query,
-                 [&](uint32_t block, LaneMask lanes, const FloatLanes&)
+                 [&](uint32_t block, LaneMask lanes, const DiscPlaces&)
                  {
                      for (const int i : lanesIn(lanes))
                          found.push_back(block + static_cast<uint32_t>(i));
@@ -300,7 +306,7 @@ void PhotonMap::findLane(const PhotonQueryLanes& queries, int lane,
                          std::vector<FoundPhoton>& found) const
 {
     forEachFound(laneOf(queries, lane),
-                 [&](uint32_t block, LaneMask photons, const FloatLanes&)
+                 [&](uint32_t block, LaneMask photons, const DiscPlaces&)
                  {
                      for (const int i : lanesIn(photons))
                          found.push_back({block + static_cast<uint32_t>(i), 1u << lane});
@@ -313,11 +319,12 @@ bool PhotonMap::findDistances(const PhotonQuery& query, std::size_t most,
 {
     std::vector<float>& radii2 = distances._radius2;
     radii2.clear();
+    const float rounding = gapTolerance(query.position, 0.0f);
     forEachFound(query,
-                 [&](uint32_t, LaneMask lanes, const FloatLanes& radius2)
+                 [&](uint32_t, LaneMask lanes, const DiscPlaces& places)
                  {
                      for (const int i : lanesIn(lanes))
-                         radii2.push_back(radius2[i]);
+                         radii2.push_back(leastRadius2(places, i, rounding));
                      return radii2.size() <= most;
                  });
     return radii2.size() <= most;
