@@ -40,7 +40,8 @@ RayBlock raysDown(float first)
     return rays;
 }
 
-/// Returns the distances at which lane i passes panes, in ascending order.
+/// Returns the distances at which lane i passes panes, in ascending order; Embree's round by a few
+/// units of the last place, on some CPUs.
 std::vector<float> distances(const PaneCrossings& crossings, const RayBlock& rays, int i)
 {
     std::vector<float> found;
@@ -82,8 +83,11 @@ TEST_CASE("pane crossings: one query finds all panes of a ray, also of placed in
             {
                 CAPTURE(active, int(coherence), i);
                 CHECK((rays.tFar[i] < 0.0f) == (i >= 9));
-                if (i < 9)
-                    CHECK(distances(crossings, rays, i) == std::vector<float>{4.0f, 5.0f, 6.0f});
+                if (i >= 9) continue;
+                const std::vector<float> found = distances(crossings, rays, i);
+                REQUIRE(found.size() == 3);
+                for (std::size_t k = 0; k < 3; ++k)
+                    CHECK(found[k] == Approx(4.0 + double(k)).epsilon(1e-6));
             }
             for (int k = 0; k < kMostCrossings; ++k)
                 CHECK((crossings.beyond(k) & ~active) == 0);

@@ -11,17 +11,41 @@ namespace osgRayTrace::bench
 namespace
 {
 
-constexpr std::size_t kChunkPackets = 16; ///< a chunk has as many rays as a tile has pixels
+constexpr std::size_t kChunkRays = 256; ///< a chunk has as many rays as a tile has pixels
 
-/// Returns full packets; the last one is filled up with copies of its first ray.
-std::vector<RTCRay16> packetsOf(const std::vector<RTCRay>& rays)
+/// The packets that Embree traces as one on some CPUs, by their number of rays.
+template <int N> struct Packets;
+template <> struct Packets<16>
 {
-    std::vector<RTCRay16> packets((rays.size() + 15) / 16);
-    for (std::size_t i = 0; i < packets.size() * 16; ++i)
+    using Ray = RTCRay16;
+    using RayHit = RTCRayHit16;
+    static constexpr auto intersect = [](auto... arguments) { rtcIntersect16(arguments...); };
+    static constexpr auto occluded = [](auto... arguments) { rtcOccluded16(arguments...); };
+};
+template <> struct Packets<8>
+{
+    using Ray = RTCRay8;
+    using RayHit = RTCRayHit8;
+    static constexpr auto intersect = [](auto... arguments) { rtcIntersect8(arguments...); };
+    static constexpr auto occluded = [](auto... arguments) { rtcOccluded8(arguments...); };
+};
+template <> struct Packets<4>
+{
+    using Ray = RTCRay4;
+    using RayHit = RTCRayHit4;
+    static constexpr auto intersect = [](auto... arguments) { rtcIntersect4(arguments...); };
+    static constexpr auto occluded = [](auto... arguments) { rtcOccluded4(arguments...); };
+};
+
+/// Returns full packets; the last one is filled up with copies of the last ray.
+template <int N> std::vector<typename Packets<N>::Ray> packetsOf(const std::vector<RTCRay>& rays)
+{
+    std::vector<typename Packets<N>::Ray> packets((rays.size() + N - 1) / N);
+    for (std::size_t i = 0; i < packets.size() * N; ++i)
     {
         const RTCRay& ray = rays[std::min(i, rays.size() - 1)];
-        RTCRay16& packet = packets[i / 16];
-        const std::size_t k = i % 16;
+        auto& packet = packets[i / N];
+        const std::size_t k = i % N;
         packet.org_x[k] = ray.org_x;
         packet.org_y[k] = ray.org_y;
         packet.org_z[k] = ray.org_z;
@@ -48,46 +72,70 @@ void inChunks(const engine::Workers& workers, std::size_t size, std::size_t chun
                     [&](std::size_t i) { body(i * chunk, std::min(size, (i + 1) * chunk)); });
 }
 
+template <int N>
 void closestHits(const engine::Workers& workers, RTCScene scene,
-                 const std::vector<RTCRay16>& packets, bool coherent)
+                 const std::vector<typename Packets<N>::Ray>& packets, bool coherent)
 {
-    inChunks(workers, packets.size(), kChunkPackets,
+    inChunks(workers, packets.size(), kChunkRays / N,
              [&](std::size_t first, std::size_t last)
              {
                  RTCIntersectContext context;
                  rtcInitIntersectContext(&context);
                  if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-                 alignas(64) RTCRayHit16 packet;
+                 alignas(64) typename Packets<N>::RayHit packet;
                  for (std::size_t i = first; i < last; ++i)
                  {
                      std::memcpy(&packet.ray, &packets[i], sizeof(packet.ray));
                      std::memset(packet.hit.geomID, 0xff, sizeof(packet.hit.geomID));
                      std::memset(packet.hit.instID, 0xff, sizeof(packet.hit.instID));
-                     rtcIntersect16(kAllValid, scene, &context, &packet);
+                     Packets<N>::intersect(kAllValid, scene, &context, &packet);
                  }
              });
 }
 
-void occlusion(const engine::Workers& workers, RTCScene scene, const std::vector<RTCRay16>& packets)
+template <int N>
+void occlusion(const engine::Workers& workers, RTCScene scene,
+               const std::vector<typename Packets<N>::Ray>& packets)
 {
-    inChunks(workers, packets.size(), kChunkPackets,
+    inChunks(workers, packets.size(), kChunkRays / N,
              [&](std::size_t first, std::size_t last)
              {
                  RTCIntersectContext context;
                  rtcInitIntersectContext(&context);
-                 alignas(64) RTCRay16 packet;
+                 alignas(64) typename Packets<N>::Ray packet;
                  for (std::size_t i = first; i < last; ++i)
                  {
                      std::memcpy(&packet, &packets[i], sizeof(packet));
-                     rtcOccluded16(kAllValid, scene, &context, &packet);
+                     Packets<N>::occluded(kAllValid, scene, &context, &packet);
                  }
              });
+}
+
+/// Returns what traces the rays in packets of N.
+template <int N> std::function<void(const engine::Workers&)> tracerOf(const RecordedRays& rays)
+{
+    return [camera = packetsOf<N>(rays.camera), secondary = packetsOf<N>(rays.secondary),
+            shadow = packetsOf<N>(rays.shadow), scene = rays.scene](const engine::Workers& workers)
+    {
+        closestHits<N>(workers, scene, camera, true);
+        closestHits<N>(workers, scene, secondary, false);
+        occlusion<N>(workers, scene, shadow);
+    };
+}
+
+/// Tells whether Embree traces packets as wide as the property says as one on this CPU.
+bool isNative(RTCScene scene, RTCDeviceProperty property)
+{
+    const RTCDevice device = rtcGetSceneDevice(scene); // which is retained
+    const bool native = rtcGetDeviceProperty(device, property) != 0;
+    rtcReleaseDevice(device);
+    return native;
 }
 
 void closestHitsSingly(const engine::Workers& workers, RTCScene scene,
                        const std::vector<RTCRay>& rays)
 {
-    inChunks(workers, rays.size(), kChunkPackets * 16,
+    inChunks(workers, rays.size(), kChunkRays,
              [&](std::size_t first, std::size_t last)
              {
                  RTCIntersectContext context;
@@ -105,7 +153,7 @@ void closestHitsSingly(const engine::Workers& workers, RTCScene scene,
 void occlusionSingly(const engine::Workers& workers, RTCScene scene,
                      const std::vector<RTCRay>& rays)
 {
-    inChunks(workers, rays.size(), kChunkPackets * 16,
+    inChunks(workers, rays.size(), kChunkRays,
              [&](std::size_t first, std::size_t last)
              {
                  RTCIntersectContext context;
@@ -121,18 +169,13 @@ void occlusionSingly(const engine::Workers& workers, RTCScene scene,
 } // namespace
 
 BarePackets::BarePackets(const RecordedRays& rays)
-    : _camera(packetsOf(rays.camera)),
-      _secondary(packetsOf(rays.secondary)),
-      _shadow(packetsOf(rays.shadow)),
-      _scene(rays.scene)
 {
-}
-
-void BarePackets::trace(const engine::Workers& workers) const
-{
-    closestHits(workers, _scene, _camera, true);
-    closestHits(workers, _scene, _secondary, false);
-    occlusion(workers, _scene, _shadow);
+    if (isNative(rays.scene, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED))
+        _trace = tracerOf<16>(rays);
+    else if (isNative(rays.scene, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED))
+        _trace = tracerOf<8>(rays);
+    else
+        _trace = tracerOf<4>(rays);
 }
 
 void traceSingly(const RecordedRays& rays, const engine::Workers& workers)

@@ -48,6 +48,12 @@ void takeDown(const int* valid, int width, RTCScene scene, const Packet& packet,
         if (valid[i]) list.push_back(rayOf(packet, i));
 }
 
+void takeDown(RTCScene scene, const RTCRay& ray, std::vector<RTCRay>& list)
+{
+    recording->scene = scene;
+    list.push_back(ray);
+}
+
 } // namespace
 
 #pragma GCC visibility push(default) // the linker refuses to wrap with hidden symbols
@@ -56,6 +62,7 @@ extern "C"
 
     void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
     void __real_rtcIntersect8(const int*, RTCScene, RTCIntersectContext*, RTCRayHit8*);
+    void __real_rtcIntersect4(const int*, RTCScene, RTCIntersectContext*, RTCRayHit4*);
     void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
     void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
     void __real_rtcOccluded8(const int*, RTCScene, RTCIntersectContext*, RTCRay8*);
@@ -77,9 +84,17 @@ extern "C"
         __real_rtcIntersect8(valid, scene, context, rays);
     }
 
+    void __wrap_rtcIntersect4(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                              RTCRayHit4* rays)
+    {
+        if (!tracing && recording) takeDown(valid, 4, scene, rays->ray, closestHitList(context));
+        const Tracing now;
+        __real_rtcIntersect4(valid, scene, context, rays);
+    }
+
     void __wrap_rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* ray)
     {
-        if (!tracing && recording) closestHitList(context).push_back(ray->ray);
+        if (!tracing && recording) takeDown(scene, ray->ray, closestHitList(context));
         const Tracing now;
         __real_rtcIntersect1(scene, context, ray);
     }
@@ -102,7 +117,7 @@ extern "C"
 
     void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray)
     {
-        if (!tracing && recording) recording->shadow.push_back(*ray);
+        if (!tracing && recording) takeDown(scene, *ray, recording->shadow);
         const Tracing now;
         __real_rtcOccluded1(scene, context, ray);
     }
