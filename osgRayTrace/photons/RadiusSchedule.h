@@ -20,6 +20,13 @@ inline double globalRadiusSquared(int pass, double alpha)
     return std::exp(logGamma(n + alpha) - logGamma(1.0 + alpha) - logGamma(n + 1.0));
 }
 
+/// Returns the same for discs that shrink as if `delay` passes had come before the first one: they
+/// stay large for about as many passes, and then go with the same power of the pass.
+inline double globalRadiusSquared(int pass, double alpha, int delay)
+{
+    return globalRadiusSquared(pass + delay, alpha) / globalRadiusSquared(delay, alpha);
+}
+
 /// Holds the statistics of a pixel that shrinks its radius by the photons that it has seen: radius
 /// reduction and flux correction [Hachisuka08, sect. 4], with statistics that all hit points of the
 /// pixel share [Hachisuka09, sect. 4].

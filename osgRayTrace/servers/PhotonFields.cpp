@@ -57,9 +57,9 @@ void putWanted(WireWriter& out, const TilePhotons& photons)
     const GatheredPhotons& g = photons.gathered;
     const bool hasRadii =
         std::any_of(g.radius, g.radius + kTilePixels, [](float r) { return r != 0.0f; });
-    out(g.choosesPlanes, g.shrink2, g.smallDisc, g.separate, g.wantsFirstHits, g.balances,
-        g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst, g.seenStride,
-        g.pointStride, hasRadii);
+    out(g.choosesPlanes, g.shrink2, g.smoothShrink2, g.smallDisc, g.separate, g.wantsFirstHits,
+        g.balances, g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst,
+        g.seenStride, g.pointStride, hasRadii);
     if (hasRadii) out.append(g.radius, sizeof g.radius);
     out(!photons.planes.empty());
     putPlanes(out, photons);
@@ -69,9 +69,9 @@ void takeWanted(WireReader& in, TilePhotons& photons)
 {
     GatheredPhotons& g = photons.gathered;
     bool hasRadii = false, hasPlanes = false;
-    in(g.choosesPlanes, g.shrink2, g.smallDisc, g.separate, g.wantsFirstHits, g.balances,
-       g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst, g.seenStride,
-       g.pointStride, hasRadii);
+    in(g.choosesPlanes, g.shrink2, g.smoothShrink2, g.smallDisc, g.separate, g.wantsFirstHits,
+       g.balances, g.wantsBlur, g.takesBlur, g.earlierBlur, g.comparedBlock, g.seenFirst,
+       g.seenStride, g.pointStride, hasRadii);
     if (hasRadii) in.copy(g.radius, sizeof g.radius);
     in(hasPlanes);
     takePlanes(in, hasPlanes, photons);

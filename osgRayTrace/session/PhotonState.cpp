@@ -241,11 +241,17 @@ void PhotonState::prepare(const std::shared_ptr<const TracedScene>& traced, Pass
     }
     _differences.resize(_pixels / kTilePixels);
     _alpha = context.options.photonAlpha;
-    _shrink = static_cast<float>(
-        std::sqrt(globalRadiusSquared(pass, static_cast<double>(context.options.photonAlpha))));
+    const auto shrinkOf = [&](int delay)
+    {
+        return static_cast<float>(
+            std::sqrt(globalRadiusSquared(pass, static_cast<double>(_alpha), delay)));
+    };
+    _shrink = shrinkOf(0);
     context.leastPhotonRadius = std::max(_floor, _least * _shrink);
     context.largestPhotonRadius = std::max(_floor, _largest * _shrink);
-    const float cell = 2.0f * std::max(_floor, _cellRadius * _shrink);
+    // Where some discs shrink late, most do.
+    _smoothShrink = _lookups.empty() || _causticsAlone ? _shrink : shrinkOf(kLatePasses);
+    const float cell = 2.0f * std::max(_floor, _cellRadius * _smoothShrink);
     _cellSize = cell;
     if (pass != _preparedPass || !_pass) // otherwise the pass keeps the photons that it began with
         _pass = _passes->pass(scene, pass, cell, workers);
@@ -291,20 +297,14 @@ double PhotonState::secondsOf(int pass) const
     return _pass->seconds;
 }
 
-// Pixels that still take discs are biased in later passes, too. Bias is taken to go with the
-// radius, between its square for smooth light and its root at a fold caustic; means of the radius
-// over n passes go with n^((alpha - 1) / 2) [Knaus11].
 FootprintBiases PhotonState::footprintBiases(int passes, const Workers& workers) const
 {
     const std::size_t count = _lookups.size();
     FootprintBiases biases{std::vector<FootprintBias>(count), std::vector<FootprintBias>(count)};
-    const double choosing = std::min(passes, kChoosingPasses);
-    const double all = std::pow(choosing / passes, 0.5 - 0.5 * static_cast<double>(_alpha));
-    const double later = std::sqrt(std::max(0.0, all * all - std::pow(choosing / passes, 2.0)));
     const auto addTile = [&](std::size_t tile)
     {
         FootprintBias compared, discs; // neighbours of the lists share cache lines
-        if (_lookups[tile]) _lookups[tile]->addBiases(passes, later, compared, discs);
+        if (_lookups[tile]) _lookups[tile]->addBiases(passes, compared, discs);
         biases.compared[tile] = compared;
         biases.later[tile] = discs;
     };
@@ -376,6 +376,7 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.pointStride = static_cast<uint32_t>(
             std::clamp<std::size_t>(_pixels / kRecordedPixels, 1, kMostRecordedStride));
     gathered.separate = _local;
+    gathered.shrink2 = gathered.smoothShrink2 = _shrink * _shrink;
     if (!_lookups.empty())
     {
         TileLookups* lookups = _lookups[static_cast<std::size_t>(tile)];
@@ -386,8 +387,8 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
         gathered.planes = lookups->planes;
         gathered.wantsFirstHits = TileLookups::repays(pass);
         gathered.balances = lookups->balances(pass);
-        gathered.shrink2 = _shrink * _shrink;
-        gathered.smallDisc = lookups->smallDisc(pass, _alpha);
+        if (lookups->shrinksLate(pass)) gathered.smoothShrink2 = _smoothShrink * _smoothShrink;
+        gathered.smallDisc = lookups->smallDisc(pass);
         // Discs of half the least radius would lose photons to rounding.
         if (_least * _shrink > 2.0f * _floor) lookups->beginBlur(pass, gathered);
     }
@@ -396,8 +397,10 @@ void PhotonState::begin(int tile, int pass, GatheredPhotons& gathered)
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const std::size_t half = (pass & 1) ? _pixels : 0;
+        const float shrink2 =
+            gathered.planes ? gathered.shrink2Of(gathered.planes[p]) : gathered.shrink2;
         const float radius = _local ? std::sqrt(_statistics[half + first + p].radius2)
-                                    : _firstRadii[first + p] * _shrink;
+                                    : _firstRadii[first + p] * std::sqrt(shrink2);
         gathered.radius[p] = radius > 0.0f && !choosesAgain(pass) ? std::max(radius, _floor) : 0.0f;
     }
 }

@@ -98,7 +98,7 @@ public:
     void end(int tile, int pass, const GatheredPhotons& gathered, float alpha, RgbaLanes* rgba);
 
     /// Returns the largest radius of the last pass [length].
-    float radius() const { return _largest * _shrink; }
+    float radius() const { return _largest * _smoothShrink; }
     PhotonNote note() const;
     const PhotonPass* photons() const { return _pass.get(); }
     const std::shared_ptr<const PhotonPass>& sharedPhotons() const { return _pass; }
@@ -129,10 +129,11 @@ private:
     float _largest = 0.0f;
     float _cellRadius = 0.0f; ///< half the size of the map's cells in the first pass
     float _cellSize = 0.0f;
-    float _beamRadius = 0.0f;  ///< of the first pass
-    float _pointRadius = 0.0f; ///< of the first pass
-    float _alpha = 1.0f;       ///< of the radius schedule
-    float _shrink = 1.0f;      ///< radius of the pass at work over the first one, global schedule
+    float _beamRadius = 0.0f;   ///< of the first pass
+    float _pointRadius = 0.0f;  ///< of the first pass
+    float _alpha = 1.0f;        ///< of the radius schedule
+    float _shrink = 1.0f;       ///< radius of the pass at work over the first one, global schedule
+    float _smoothShrink = 1.0f; ///< the same where light is smooth: TileLookups::shrinksLate
     bool _local = false;
     /// True: the photons are for caustics, but nothing makes caustics, so all paths are traced from
     /// the eye.

@@ -34,6 +34,7 @@
 #include "osgRayTrace/photons/RadiusSchedule.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace osgRayTrace::engine
@@ -126,6 +127,7 @@ void TileLookups::finish(int pass, int counted, float alpha, const GatheredPhoto
     if (pass < kChoosingPasses) _counted[pass] = static_cast<uint8_t>(counted);
     if (gathered.wantsBlur && pass < kChoosingPasses) addBlur(pass, gathered);
     if (gathered.wantsFirstHits) forgetDiscs(pass, gathered, rgba);
+    if (pass < kChoosingPasses) addDiscAreas(counted, gathered);
     if (pass + 1 == kChoosingPasses)
     {
         endChoosing();
@@ -169,12 +171,20 @@ void TileLookups::beginBlur(int pass, GatheredPhotons& gathered) const
 }
 
 // Passes that make up for others count the discs of pixels that compare, so these change none.
-float TileLookups::smallDisc(int pass, float alpha) const
+float TileLookups::smallDisc(int pass) const
 {
     if (repays(pass)) return 0.0f;
-    const double shrink2 = globalRadiusSquared(pass, static_cast<double>(alpha));
-    const float small = _leaks ? kSmallBesideCaustics : kSmallElsewhere;
-    return small / static_cast<float>(shrink2);
+    return _leaks ? kSmallBesideCaustics : kSmallElsewhere;
+}
+
+void TileLookups::addDiscAreas(int counted, const GatheredPhotons& gathered)
+{
+    for (std::size_t p = 0; p < kTilePixels; ++p)
+    {
+        const float area = _wasSmooth[p] ? gathered.smoothShrink2 : gathered.shrink2;
+        _discAreas[p] += area * static_cast<float>(counted);
+        _wasSmooth[p] = planes[p].isSmooth();
+    }
 }
 
 void TileLookups::forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba)
@@ -232,24 +242,25 @@ void TileLookups::endChoosing()
 
 /// Returns what leaks in the mean of the first kChoosingPasses, by how often they count, over what
 /// leaks in the mean of the passes that make up for them. Blur of smooth light goes with the square
-/// of the radius [Knaus11].
+/// of the radius [Knaus11]. Each pixel's blur counts by what it has seen of it.
 float TileLookups::earlierLeak(double alpha) const
 {
-    double earlier = 0.0, later = 0.0;
-    int counted = 0, repaying = 0;
+    int counted = 0;
+    double later = 0.0;
     for (int pass = 0; repays(pass); ++pass)
+        if (pass < kChoosingPasses)
+            counted += _counted[pass];
+        else
+            later += globalRadiusSquared(pass, alpha) / (kChoosingPasses * kRepayingPasses);
+    double leaked = 0.0, perArea = 0.0; // in the first passes; by a disc as large as the first one
+    for (std::size_t p = 0; p < kTilePixels; ++p)
     {
-        const double leak = globalRadiusSquared(pass, alpha);
-        if (pass >= kChoosingPasses)
-        {
-            later += leak;
-            ++repaying;
-            continue;
-        }
-        earlier += _counted[pass] * leak;
-        counted += _counted[pass];
+        if (planes[p].lookup != PixelLookup::Compared) continue;
+        const auto seen = static_cast<double>(std::fabs(planes[p].difference) + FLT_MIN);
+        leaked += seen;
+        perArea += seen * counted / static_cast<double>(_discAreas[p]);
     }
-    return static_cast<float>(earlier / counted / (later / repaying));
+    return perArea > 0.0 ? static_cast<float>(leaked / perArea / later) : 0.0f;
 }
 
 void TileLookups::takeLeaked(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba) const
@@ -271,14 +282,15 @@ void TileLookups::takeLeaked(int pass, const GatheredPhotons& gathered, RgbaLane
 }
 
 // Whether a pixel has changed over hangs on its differences, so those of all pixels count: only
-// their sum has no bias.
-void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compared,
-                            FootprintBias& discs) const
+// their sum has no bias. Pixels that still take discs are biased in later passes, too. Bias is
+// taken to go with the radius, between its square for smooth light and its root at a fold caustic.
+void TileLookups::addBiases(int passes, FootprintBias& compared, FootprintBias& discs) const
 {
     int counted = 0; // of the passes that may choose, which are discs where no pixel has changed
     for (int pass = 0; pass < std::min(passes, kChoosingPasses); ++pass)
         counted += _counted[pass];
     const double chose = std::min(1.0, static_cast<double>(counted) / passes);
+    const double rough = laterShare(passes, false), smooth = laterShare(passes, true);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const SeenPlane& known = planes[p];
@@ -287,22 +299,52 @@ void TileLookups::addBiases(int passes, double laterShare, FootprintBias& compar
         const double sum = static_cast<double>(known.difference);
         const double squares = static_cast<double>(known.squares);
         compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
-        if (!changed)
-            discs.addPixel(known.compared, sum, squares, laterShare * discsUntil(p, passes));
+        if (changed) continue;
+        const double later = known.isSmooth() ? smooth : rough;
+        discs.addPixel(known.compared, sum, squares, later * discsUntil(p, passes));
     }
 }
 
+/// Returns how many of so many passes, as a share of them, have together the bias of the later ones
+/// of a pixel that still takes discs, if each has the mean of those that may choose.
+double TileLookups::laterShare(int passes, bool isSmooth) const
+{
+    const int choosing = std::min(passes, kChoosingPasses);
+    const double share = static_cast<double>(choosing) / passes;
+    const double all = share * sumOfRadii(passes, isSmooth) / sumOfRadii(choosing, isSmooth);
+    return std::sqrt(std::max(0.0, all * all - share * share));
+}
+
+/// Returns the sum of the radii of a pixel that compares over so many passes from the first one on,
+/// in first radii. Those of pass n go with (n + late)^((alpha - 1) / 2) [Knaus11].
+double TileLookups::sumOfRadii(int passes, bool isSmooth) const
+{
+    const double power = 0.5 + 0.5 * static_cast<double>(_alpha);
+    const auto sum = [&](int count, double late)
+    {
+        const double scale = std::pow(std::max(1.0, late), 1.0 - power) / power;
+        return scale * (std::pow(count + late, power) - std::pow(late, power));
+    };
+    if (!isSmooth || !shrinksLate(0)) return sum(passes, 0.0);
+    if (shrinksLate(passes)) return sum(passes, kLatePasses);
+    return sum(kChoosingPasses, kLatePasses) + sum(passes, 0.0) - sum(kChoosingPasses, 0.0);
+}
+
 /// Returns the sum of the radii of the later passes in which the pixel, which still compares, looks
-/// up discs, over that of all later passes. Radii go with n^((alpha - 1) / 2) [Knaus11].
+/// up discs, over that of all later passes.
 double TileLookups::discsUntil(std::size_t pixel, int passes) const
 {
-    const double small = static_cast<double>(smallDisc(passes, _alpha));
-    const double disc = static_cast<double>(planes[pixel].discPixels);
+    const auto alpha = static_cast<double>(_alpha);
+    const bool isSmooth = planes[pixel].isSmooth();
+    const int late = isSmooth && shrinksLate(passes) ? kLatePasses : 0;
+    const double disc =
+        static_cast<double>(planes[pixel].discPixels) * globalRadiusSquared(passes, alpha, late);
+    const auto small = static_cast<double>(smallDisc(passes));
     if (!(disc > 0.0 && disc < small)) return 1.0;
-    const double alpha = static_cast<double>(_alpha);
-    const double first = kChoosingPasses * (1.0 + kRepayingPasses) / passes;
     const double share = alpha < 1.0 ? std::pow(disc / small, 1.0 / (1.0 - alpha)) : 0.0;
-    return std::pow(std::max(first, share), 0.5 + 0.5 * alpha);
+    const int first = kChoosingPasses * (1 + kRepayingPasses);
+    const int last = std::max(first, static_cast<int>(share * (passes + late)) - late);
+    return sumOfRadii(std::min(last, passes), isSmooth) / sumOfRadii(passes, isSmooth);
 }
 
 /// Returns how often the passes of a half count in which the pixel looked up discs before it

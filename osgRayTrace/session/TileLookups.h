@@ -18,6 +18,10 @@ constexpr int kChoosingPasses = 16;
 /// more have less noise.
 constexpr int kRepayingPasses = 2;
 
+/// Discs in smooth light shrink as if so many passes had come before the first one: they have noise
+/// and little else. With more there is hardly less noise in 64 passes, and more blur in a thousand.
+constexpr int kLatePasses = 32;
+
 /// What the pixels of a tile see, and the light of the discs that they have looked up. A pixel that
 /// takes the photons of its footprint from some pass on has found its discs wrong, so their light
 /// is taken out of the image again, and later passes count more in its place. Pixels that keep
@@ -40,14 +44,20 @@ public:
     /// GatheredPhotons::balances.
     bool balances(int pass) const { return pass >= kChoosingPasses && _leaks; }
 
+    /// Whether discs in smooth light shrink late, by kLatePasses, in a pass. They do not where
+    /// photons bring caustics only, or, once all pixels have chosen, beside a caustic.
+    bool shrinksLate(int pass) const
+    {
+        return !_forgetsAlone && (pass < kChoosingPasses || !_leaks);
+    }
+
     /// Forgets all passes so far, which leave the image: see FirstPasses. Does so only once.
     void restart();
 
     /// Sets what a pass is to do about the blur of discs without footprints.
     void beginBlur(int pass, GatheredPhotons& gathered) const;
 
-    /// GatheredPhotons::smallDisc of a pass. alpha: of the radius schedule.
-    float smallDisc(int pass, float alpha) const;
+    float smallDisc(int pass) const; ///< GatheredPhotons::smallDisc
 
     /// Takes what a pass has looked up in the tile, and corrects its light. Passes below
     /// kChoosingPasses come in their order, before all others. counted: how often the light of the
@@ -57,20 +67,22 @@ public:
 
     /// Adds what the pixels know of the bias of their discs in the mean of so many passes from the
     /// first one on: to compared the bias of the passes that may choose, to discs that of the later
-    /// passes of pixels that still take discs, as the share laterShare of passes like the first.
-    void addBiases(int passes, double laterShare, FootprintBias& compared,
-                   FootprintBias& discs) const;
+    /// passes of pixels that still take discs.
+    void addBiases(int passes, FootprintBias& compared, FootprintBias& discs) const;
 
     /// Returns the share of a pixel's light that is that of discs from before it changed over, in
     /// the mean of so many passes from the first one on. The pixel has changed over.
     double discShare(std::size_t pixel, int passes) const;
 
 private:
+    double laterShare(int passes, bool isSmooth) const;
+    double sumOfRadii(int passes, bool isSmooth) const;
     double discsUntil(std::size_t pixel, int passes) const;
     int countedOf(std::size_t pixel, int half) const;
     void forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba);
     void addBlur(int pass, const GatheredPhotons& gathered);
     bool takesBlur() const;
+    void addDiscAreas(int counted, const GatheredPhotons& gathered);
     void endChoosing();
     float earlierLeak(double alpha) const;
     void takeLeaked(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba) const;
@@ -85,6 +97,10 @@ private:
     /// have more noise without it.
     bool _forgets[kTilePixels] = {};
     bool _forgetsAlone;
+    /// The areas of discs in the passes that may choose, over those of the first pass, summed over
+    /// the passes by how often they count.
+    float _discAreas[kTilePixels] = {};
+    bool _wasSmooth[kTilePixels] = {}; ///< SeenPlane::isSmooth before the pass at work
     /// By pass that may choose: how often it counts; 0 before it is made, and for passes that leave
     /// the image.
     uint8_t _counted[kChoosingPasses] = {};

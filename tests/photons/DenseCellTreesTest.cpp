@@ -36,6 +36,12 @@ std::vector<Photon> denseCell(std::size_t count, uint32_t seed)
     return photons;
 }
 
+/// Returns how far a photon may be from the disc's plane whose normal is the disc's.
+float farthestFromPlane(const PhotonQuery& q)
+{
+    return std::min(kPlaneShare * q.radius, gapTolerance(q.position, q.radius));
+}
+
 PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
 {
     PhotonSum sum;
@@ -44,7 +50,7 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
     {
         const Vec3 d = p.position - q.position;
         if (!(glm::dot(d, d) <= q.radius * q.radius)) continue;
-        if (!(std::fabs(glm::dot(d, q.normal)) <= gapTolerance(q.position, q.radius))) continue;
+        if (!(std::fabs(glm::dot(d, q.normal)) <= farthestFromPlane(q))) continue;
         if (!(glm::dot(p.wi, q.normal) > 0.0f) || p.edges > q.mostEdges) continue;
         if (glm::dot(p.normal, q.normal) < kLeastNormalCosine) continue;
         ++sum.count;

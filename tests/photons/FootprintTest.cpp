@@ -276,6 +276,40 @@ Material shiningWall(double albedo)
     return wall;
 }
 
+/// Adds a room whose walls shine evenly, of tiles x tiles quads each, and a plate that hangs in it,
+/// turned: all of its edges end in the air. A second plate is as far behind it as gap says; 0:
+/// there is none.
+void addPlates(SceneBuilder& builder, const Material& wall, int tiles, float gap)
+{
+    addRoom(builder, wall, tiles);
+    const Vec3 corner(-0.6f, -0.5f, -0.3f), u(0.9f, 0.2f, 0.1f), v(-0.15f, 0.8f, 0.3f);
+    builder.addEmissive(tiledQuad(corner, u, v, tiles), wall);
+    const Vec3 behind = glm::normalize(glm::cross(v, u)) * gap;
+    if (gap > 0.0f) builder.addEmissive(tiledQuad(corner + behind, u, v, tiles), wall);
+}
+
+/// Returns the means of pictures of that room by SPPM over its radiance, which is even.
+Estimate meansWithPlates(int tiles, float gap, bool photonGuiding)
+{
+    constexpr int kWidth = 48, kBounces = 12;
+    constexpr double kAlbedo = 0.7;
+    SceneBuilder builder;
+    addPlates(builder, shiningWall(kAlbedo), tiles, gap);
+    const auto traced = builder.build();
+    const View view =
+        perspectiveView({0.05, 0.02, 0.95}, {0, 0, -1}, {0, 1, 0}, 60.0, kWidth, kWidth);
+    Estimate all;
+    for (uint32_t seed = 0; seed < 4; ++seed)
+    {
+        RenderOptions options = optionsOf(IntegratorKind::Sppm, kBounces, seed);
+        options.photons = 1 << 15;
+        options.photonGuiding = photonGuiding;
+        all.add(double(render(traced, view, options, 24).mean().y) /
+                evenRadiance(kAlbedo, kBounces));
+    }
+    return all;
+}
+
 } // namespace
 
 // A pixel may see a wall far from its edges first, and then the edge of a block before it. The
@@ -314,60 +348,22 @@ TEST_CASE("disc edges: SPPM loses no light in pixels that see two surfaces",
 TEST_CASE("disc edges: SPPM loses no light beside straight edges, and finds none within walls",
           "[photons][statistics]")
 {
-    constexpr int kWidth = 48, kBounces = 12;
-    constexpr double kAlbedo = 0.7;
-    const Material wall = shiningWall(kAlbedo);
-    const double truth = evenRadiance(kAlbedo, kBounces);
     for (const int tiles : {1, 9})
     {
-        SceneBuilder builder;
-        addRoom(builder, wall, tiles);
-        // A plate that hangs in the room, turned: all of its edges end in the air.
-        const Vec3 corner(-0.6f, -0.5f, -0.3f), u(0.9f, 0.2f, 0.1f), v(-0.15f, 0.8f, 0.3f);
-        builder.addEmissive(tiledQuad(corner, u, v, tiles), wall);
-        const auto traced = builder.build();
-        const View view =
-            perspectiveView({0.05, 0.02, 0.95}, {0, 0, -1}, {0, 1, 0}, 60.0, kWidth, kWidth);
-        Estimate all;
-        for (uint32_t seed = 0; seed < 4; ++seed)
-        {
-            RenderOptions options = optionsOf(IntegratorKind::Sppm, kBounces, seed);
-            options.photons = 1 << 15;
-            all.add(double(render(traced, view, options, 24).mean().y) / truth);
-        }
+        const Estimate all = meansWithPlates(tiles, 0.0f, true);
         CAPTURE(tiles, all.mean(), all.standardError());
         CHECK(std::abs(all.mean() - 1.0) < 0.004);
     }
 }
 
-// Two sheets shine and face the camera, one close behind the other. Discs on the front sheet are
-// much larger than the gap, whose light would make the picture 5 % too bright and more.
+// Discs on the front plate are much larger than the gap behind it, whose light would make the
+// picture 5 % too bright and more.
 TEST_CASE("disc edges: light in a gap behind a thin sheet is not seen on the sheet",
           "[photons][statistics]")
 {
-    constexpr int kWidth = 48, kBounces = 12;
-    constexpr double kAlbedo = 0.7;
-    const Material wall = shiningWall(kAlbedo);
-    const double truth = evenRadiance(kAlbedo, kBounces);
     for (const float gap : {0.01f, 0.004f})
     {
-        SceneBuilder builder;
-        addRoom(builder, wall, 1);
-        const Vec3 corner(-0.6f, -0.5f, -0.3f), u(0.9f, 0.2f, 0.1f), v(-0.15f, 0.8f, 0.3f);
-        builder.addEmissive(tiledQuad(corner, u, v, 1), wall);
-        const Vec3 behind = glm::normalize(glm::cross(v, u)) * gap;
-        builder.addEmissive(tiledQuad(corner + behind, u, v, 1), wall);
-        const auto traced = builder.build();
-        const View view =
-            perspectiveView({0.05, 0.02, 0.95}, {0, 0, -1}, {0, 1, 0}, 60.0, kWidth, kWidth);
-        Estimate all;
-        for (uint32_t seed = 0; seed < 4; ++seed)
-        {
-            RenderOptions options = optionsOf(IntegratorKind::Sppm, kBounces, seed);
-            options.photons = 1 << 15;
-            options.photonGuiding = false;
-            all.add(double(render(traced, view, options, 24).mean().y) / truth);
-        }
+        const Estimate all = meansWithPlates(1, gap, false);
         CAPTURE(gap, all.mean(), all.standardError());
         CHECK(std::abs(all.mean() - 1.0) < 0.006);
     }

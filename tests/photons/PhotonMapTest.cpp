@@ -32,6 +32,12 @@ std::vector<Photon> latticePhotons(std::size_t count, Vec3 centre, uint32_t seed
     return photons;
 }
 
+/// Returns how far a photon may be from the disc's plane whose normal is the disc's.
+float farthestFromPlane(const PhotonQuery& q)
+{
+    return std::min(kPlaneShare * q.radius, gapTolerance(q.position, q.radius));
+}
+
 PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
 {
     PhotonSum sum;
@@ -39,7 +45,7 @@ PhotonSum bruteForce(const std::vector<Photon>& photons, const PhotonQuery& q)
     {
         const Vec3 d = p.position - q.position;
         const bool inside = glm::dot(d, d) <= q.radius * q.radius &&
-                            std::fabs(glm::dot(d, q.normal)) <= gapTolerance(q.position, q.radius);
+                            std::fabs(glm::dot(d, q.normal)) <= farthestFromPlane(q);
         if (!inside || !(glm::dot(p.wi, q.normal) > 0.0f)) continue;
         if (glm::dot(p.normal, q.normal) < kLeastNormalCosine) continue;
         if (p.edges > q.mostEdges) continue;

@@ -85,6 +85,15 @@ TEST_CASE("radius schedule: the global radii follow their recurrence", "[photons
             REQUIRE(globalRadiusSquared(i, alpha) == Approx(expected).epsilon(1e-10));
         }
     }
+    for (const int delay : {0, 1, 32}) // as many passes later in the same recurrence
+    {
+        double expected = 1.0;
+        for (int i = 1; i < 2000; ++i)
+        {
+            expected *= (i + delay + 0.8) / (i + delay + 1.0);
+            REQUIRE(globalRadiusSquared(i, 0.8, delay) == Approx(expected).epsilon(1e-10));
+        }
+    }
     // The radii of passes 100, 10^4 and 10^6 over the first are the published ones.
     CHECK(std::sqrt(globalRadiusSquared(99, 2.0 / 3.0)) == Approx(0.488).epsilon(2e-3));
     CHECK(std::sqrt(globalRadiusSquared(9999, 2.0 / 3.0)) == Approx(0.227).epsilon(3e-3));

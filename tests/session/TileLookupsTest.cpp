@@ -235,13 +235,18 @@ TEST_CASE("tile lookups: what leaked in the first passes is that of their radii"
         const auto lookups = std::make_unique<TileLookups>();
         for (std::size_t p = 128; p < 192; ++p)
             lookups->planes[p].lookup = PixelLookup::Footprint; // so discs leak
-        lookups->planes[kPixel].lookup = PixelLookup::Compared;
         double sum = 0.0;
         for (int pass = restarts ? FirstPasses::kCount : 0; pass < 48; ++pass)
         {
             const int counted = restarts && pass < 2 * FirstPasses::kCount ? 2 : 1;
             const auto gathered = gatheredIn(pass);
-            const auto leak = float(globalRadiusSquared(pass, double(alpha)));
+            gathered->shrink2 = float(globalRadiusSquared(pass, double(alpha)));
+            gathered->smoothShrink2 =
+                lookups->shrinksLate(pass)
+                    ? float(globalRadiusSquared(pass, double(alpha), kLatePasses))
+                    : gathered->shrink2;
+            const float leak = gathered->shrink2Of(lookups->planes[kPixel]);
+            lookups->planes[kPixel].lookup = PixelLookup::Compared; // from the first pass on
             gathered->atFirstHits[kPixel] = Vec3(leak);
             gathered->balances = lookups->balances(pass);
             gathered->leaked = Vec3(leak);
@@ -260,15 +265,27 @@ TEST_CASE("tile lookups: what leaked in the first passes is that of their radii"
         }
 }
 
+/// Returns the mean of the radii of so many passes.
+double meanRadius(int passes, int late)
+{
+    double sum = 0.0;
+    for (int pass = 0; pass < passes; ++pass)
+        sum += std::sqrt(globalRadiusSquared(pass, double(kAlpha), late));
+    return sum / passes;
+}
+
 TEST_CASE("tile lookups: bias of discs counts as often as the passes that have it", "[session]")
 {
+    const bool isSmooth = GENERATE(false, true);
+    const double difference = isSmooth ? 3.0 : 6.0; // standard error: 2.2
+    const int late = isSmooth ? kLatePasses : 0;
     for (const bool restarts : {false, true})
     {
         const auto lookups = std::make_unique<TileLookups>();
         const int first = restarts ? FirstPasses::kCount : 0;
         SeenPlane& known = lookups->planes[kPixel];
         known.lookup = PixelLookup::Compared;
-        known.difference = 6.0f;
+        known.difference = float(difference);
         known.squares = 5.0f;
         for (int pass = first; pass < kChoosingPasses; ++pass)
         {
@@ -279,12 +296,16 @@ TEST_CASE("tile lookups: bias of discs counts as often as the passes that have i
         }
         for (const int passes : {kChoosingPasses, 4 * kChoosingPasses})
         {
-            FootprintBias compared, discs, expected;
-            lookups->addBiases(passes, 0.0, compared, discs);
-            expected.addPixel(8, 6.0, 5.0, double(kChoosingPasses) / passes);
-            CAPTURE(restarts, passes);
+            FootprintBias compared, discs, expected, later;
+            lookups->addBiases(passes, compared, discs);
+            const double choosing = double(kChoosingPasses) / passes;
+            expected.addPixel(8, difference, 5.0, choosing);
+            CAPTURE(isSmooth, restarts, passes);
             CHECK(compared.squares == Approx(expected.squares));
-            CHECK(discs.squares == 0.0);
+            // Bias goes with the radius: that of all passes is that of both parts together.
+            const double all = meanRadius(passes, late) / meanRadius(kChoosingPasses, late);
+            later.addPixel(8, difference, 5.0, std::sqrt(all * all - choosing * choosing));
+            CHECK(discs.squares == Approx(later.squares).epsilon(0.07).margin(1e-6));
         }
     }
 }
@@ -318,23 +339,51 @@ TEST_CASE("tile lookups: what discs without footprints blur leaves the image unl
         CHECK(half == Approx(isTaken ? 0.0 : 32.0 * double(blur)).margin(1e-5));
 }
 
+TEST_CASE("tile lookups: discs shrink late until they are seen beside a caustic", "[session]")
+{
+    for (const bool causticsAlone : {false, true})
+        for (const std::size_t changed : {0u, 8u, 64u}) // pixels of the tile's 256
+        {
+            TileLookups lookups(causticsAlone);
+            for (std::size_t p = 0; p < kTilePixels; ++p)
+                lookups.planes[p].lookup =
+                    p < changed ? PixelLookup::Footprint : PixelLookup::Compared;
+            for (int pass = 0; pass < 100; ++pass)
+            {
+                const bool isLate = pass < kChoosingPasses || changed < 16;
+                CAPTURE(causticsAlone, changed, pass);
+                CHECK(lookups.shrinksLate(pass) == (isLate && !causticsAlone));
+                const auto gathered = gatheredIn(pass);
+                gathered->atFirstHits[kTilePixels - 1] = Vec3(1.0f);
+                TileRgba rgba = {};
+                lookups.finish(pass, 1, kAlpha, *gathered, rgba);
+            }
+        }
+}
+
 TEST_CASE("tile lookups: discs are given up once they are as small as footprints", "[session]")
 {
     const TileLookups lookups;
     SeenPlane pixel;
     pixel.lookup = PixelLookup::Compared;
-    pixel.discPixels = 5.0f;
+    pixel.discPixels = 2.0f;
+    pixel.squares = 4.0f;
+    const bool isSmooth = GENERATE(false, true);
     int first = 0;
     for (int pass = 0; pass < 1024; ++pass)
     {
         GatheredPhotons gathered;
-        gathered.smallDisc = lookups.smallDisc(pass, kAlpha);
-        const double area = 5.0 * globalRadiusSquared(pass, double(kAlpha));
+        gathered.smallDisc = lookups.smallDisc(pass);
+        gathered.shrink2 = float(globalRadiusSquared(pass, double(kAlpha)));
+        gathered.smoothShrink2 = float(globalRadiusSquared(pass, double(kAlpha), kLatePasses));
+        pixel.difference = isSmooth ? 2.9f : 3.1f; // of a standard error of 2
+        const double area =
+            2.0 * globalRadiusSquared(pass, double(kAlpha), isSmooth ? kLatePasses : 0);
         CAPTURE(pass);
         CHECK(gathered.isSmall(pixel) == (area < 1.0 && !TileLookups::repays(pass)));
         if (!first && gathered.isSmall(pixel)) first = pass;
     }
-    CHECK(first > 64);
+    CHECK(first == (isSmooth ? 234 : 48));
     GatheredPhotons gathered;
     gathered.smallDisc = 100.0f;
     pixel.lookup = PixelLookup::Disc;

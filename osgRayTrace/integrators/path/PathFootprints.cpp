@@ -274,8 +274,8 @@ void gatherFootprints(Tile& tile, const PathBlock& block, const Bounce& bounce,
         if (gathered.choosesPlanes && ((compares >> i) & 1u))
         {
             const float radius = gathered.radius[pixel];
-            known.discPixels =
-                kPi * radius * radius / (footprints.area[i] * gathered.shrink2); // 0: no radius yet
+            known.discPixels = kPi * radius * radius /
+                               (footprints.area[i] * gathered.shrink2Of(known)); // 0: no radius yet
         }
     }
     sums.chosen = lanes & chosen;

@@ -59,6 +59,10 @@ enum class DiscEdge : uint8_t
     Near,
 };
 
+/// Light is taken to be smooth in a disc as long as the sum of its differences to the footprint is
+/// at most so many of its standard errors.
+constexpr float kSmoothSignificance = 1.5f;
+
 /// What a pixel sees and how it takes photons there, as earlier passes have chosen: see
 /// PathFootprints.cpp.
 struct SeenPlane
@@ -76,6 +80,13 @@ struct SeenPlane
     // Sums over the passes that were compared, of the luminance by the disc less that by the
     // footprint, and of its square.
     float difference = 0.0f, squares = 0.0f;
+
+    /// Whether the disc is compared, and has not been seen to blur.
+    bool isSmooth() const
+    {
+        return lookup == PixelLookup::Compared &&
+               difference * difference <= kSmoothSignificance * kSmoothSignificance * squares;
+    }
 };
 
 /// The photon look-ups of each pixel's camera path.
@@ -89,17 +100,22 @@ struct GatheredPhotons
     SeenPlane* planes = nullptr;
     bool choosesPlanes = false; ///< whether this pass may change the planes
 
-    /// Square of the radii of this pass over those of the first pass.
-    float shrink2 = 1.0f;
+    /// Square of the radii of this pass over those of the first pass, and the same where light is
+    /// smooth: such discs shrink late.
+    float shrink2 = 1.0f, smoothShrink2 = 1.0f;
+    float shrink2Of(const SeenPlane& pixel) const
+    {
+        return pixel.isSmooth() ? smoothShrink2 : shrink2;
+    }
 
-    /// Pixels that still compare take their footprint in this pass if SeenPlane::discPixels is
-    /// below this: such small discs spare little noise or none.
+    /// Pixels that still compare take their footprint in this pass if their disc is smaller than so
+    /// many footprints: such small discs spare little noise or none.
     float smallDisc = 0.0f;
 
     bool isSmall(const SeenPlane& pixel) const
     {
         return pixel.lookup == PixelLookup::Compared && pixel.discPixels > 0.0f &&
-               pixel.discPixels < smallDisc;
+               pixel.discPixels * shrink2Of(pixel) < smallDisc;
     }
 
     // If separate is set (for the local radius schedule), the photons that were found come out in
