@@ -361,6 +361,22 @@ TEST_CASE("tile lookups: discs shrink late until they are seen beside a caustic"
         }
 }
 
+TEST_CASE("tile lookups: discs that end at an edge do not shrink late", "[session]")
+{
+    GatheredPhotons gathered;
+    gathered.shrink2 = 0.25f;
+    gathered.smoothShrink2 = 0.75f;
+    SeenPlane pixel;
+    pixel.lookup = PixelLookup::Compared;
+    for (const DiscEdge edge :
+         {DiscEdge::Unknown, DiscEdge::None, DiscEdge::Straight, DiscEdge::Near})
+    {
+        pixel.edge = edge;
+        const bool ends = edge == DiscEdge::Straight || edge == DiscEdge::Near;
+        CHECK(gathered.shrink2Of(pixel) == (ends ? 0.25f : 0.75f));
+    }
+}
+
 TEST_CASE("tile lookups: discs are given up once they are as small as footprints", "[session]")
 {
     const TileLookups lookups;

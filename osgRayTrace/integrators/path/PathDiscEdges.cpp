@@ -54,17 +54,17 @@ PhotonQuery discAround(const PhotonQueryLanes& queries, LaneMask lanes)
 }
 
 /// Tells the edges of some lanes' discs, which are on one plane, if there are none, or a straight
-/// one. Leaves them unknown if not.
-void decideTogether(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
+/// one. Leaves them unknown if not. Returns whether there are others.
+bool decideTogether(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
                     LaneMask lanes)
 {
     float least = kInfinity;
     for (const int i : lanesIn(lanes))
         least = std::min(least, queries.radius[i]);
     const PhotonQuery disc = discAround(queries, lanes);
-    if (!(disc.radius <= kLargestTogether * least)) return;
+    if (!(disc.radius <= kLargestTogether * least)) return false;
     const FoundEdge found = findEdge(tile, disc, least, block.seed[firstLane(lanes)]);
-    if (found.edge == DiscEdge::Unknown) return;
+    if (found.edge == DiscEdge::Unknown) return true;
     for (const int i : lanesIn(lanes))
     {
         SeenPlane& known = tile.result.photons.gathered->planes[block.flagsOf(i).pixel()];
@@ -72,12 +72,15 @@ void decideTogether(Tile& tile, const PathBlock& block, const PhotonQueryLanes& 
         known.line = found.line;
         known.edge = found.edge;
     }
+    return false;
 }
 
-/// Decides for those of the lanes whose discs are on planes with enough others.
-void decideInGroups(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
-                    LaneMask lanes)
+/// Decides for those of the lanes whose discs are on planes with enough others. Returns those near
+/// edges that are not straight, which it leaves unknown.
+LaneMask decideInGroups(Tile& tile, const PathBlock& block, const PhotonQueryLanes& queries,
+                        LaneMask lanes)
 {
+    LaneMask near = 0;
     while (lanes)
     {
         const int first = firstLane(lanes);
@@ -91,8 +94,10 @@ void decideInGroups(Tile& tile, const PathBlock& block, const PhotonQueryLanes& 
                 group |= 1u << i;
         group |= 1u << first;
         lanes &= ~group;
-        if (countLanes(group) >= kLeastTogether) decideTogether(tile, block, queries, group);
+        if (countLanes(group) >= kLeastTogether && decideTogether(tile, block, queries, group))
+            near |= group;
     }
+    return near;
 }
 
 /// Takes out of found the photons that cannot be seen from above the disc's centre.
@@ -233,7 +238,8 @@ void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
         lanes |= 1u << i;
         if (planes[block.flagsOf(i).pixel()].edge == DiscEdge::Unknown) unknown |= 1u << i;
     }
-    if (unknown && gathered.choosesPlanes) decideInGroups(tile, block, queries, unknown);
+    LaneMask near = 0;
+    if (unknown && gathered.choosesPlanes) near = decideInGroups(tile, block, queries, unknown);
     const Discs discs{block, bounce, queries, sums};
     LaneMask straight = 0;
     for (const int i : lanesIn(lanes))
@@ -248,7 +254,9 @@ void correctEdges(Tile& tile, const PathBlock& block, const Bounce& bounce,
         }
         const float share = correctByRays(tile, discs, i);
         if (known.edge != DiscEdge::Unknown || !gathered.choosesPlanes) continue;
-        known.edge = share < 1.0f ? DiscEdge::Near : DiscEdge::None;
+        // Near an edge that others have found, sixteen rays may miss it.
+        const bool isNear = share < 1.0f || ((near >> i) & 1u);
+        known.edge = isNear ? DiscEdge::Near : DiscEdge::None;
         known.plane = planeOf(laneOf(queries, i));
     }
     if (straight) correctAtLines(tile, discs, straight);

@@ -81,10 +81,10 @@ struct SeenPlane
     // footprint, and of its square.
     float difference = 0.0f, squares = 0.0f;
 
-    /// Whether the disc is compared, and has not been seen to blur.
+    /// Whether the disc is compared, ends at no edge, and has not been seen to blur.
     bool isSmooth() const
     {
-        return lookup == PixelLookup::Compared &&
+        return lookup == PixelLookup::Compared && edge <= DiscEdge::None &&
                difference * difference <= kSmoothSignificance * kSmoothSignificance * squares;
     }
 };
