@@ -290,7 +290,7 @@ void TileLookups::addBiases(int passes, FootprintBias& compared, FootprintBias& 
     for (int pass = 0; pass < std::min(passes, kChoosingPasses); ++pass)
         counted += _counted[pass];
     const double chose = std::min(1.0, static_cast<double>(counted) / passes);
-    const double rough = laterShare(passes, false), smooth = laterShare(passes, true);
+    const LaterDiscs rough = laterDiscs(passes, false), smooth = laterDiscs(passes, true);
     for (std::size_t p = 0; p < kTilePixels; ++p)
     {
         const SeenPlane& known = planes[p];
@@ -300,19 +300,21 @@ void TileLookups::addBiases(int passes, FootprintBias& compared, FootprintBias& 
         const double squares = static_cast<double>(known.squares);
         compared.addPixel(known.compared, sum, squares, changed ? discShare(p, passes) : chose);
         if (changed) continue;
-        const double later = known.isSmooth() ? smooth : rough;
-        discs.addPixel(known.compared, sum, squares, later * discsUntil(p, passes));
+        const LaterDiscs& later = known.isSmooth() ? smooth : rough;
+        discs.addPixel(known.compared, sum, squares, later.share * discsUntil(p, passes, later));
     }
 }
 
-/// Returns how many of so many passes, as a share of them, have together the bias of the later ones
-/// of a pixel that still takes discs, if each has the mean of those that may choose.
-double TileLookups::laterShare(int passes, bool isSmooth) const
+TileLookups::LaterDiscs TileLookups::laterDiscs(int passes, bool isSmooth) const
 {
     const int choosing = std::min(passes, kChoosingPasses);
-    const double share = static_cast<double>(choosing) / passes;
-    const double all = share * sumOfRadii(passes, isSmooth) / sumOfRadii(choosing, isSmooth);
-    return std::sqrt(std::max(0.0, all * all - share * share));
+    const double first = static_cast<double>(choosing) / passes;
+    const double all = first * sumOfRadii(passes, isSmooth) / sumOfRadii(choosing, isSmooth);
+    LaterDiscs later;
+    later.share = std::sqrt(std::max(0.0, all * all - first * first));
+    later.late = isSmooth && shrinksLate(passes) ? kLatePasses : 0;
+    later.shrink2 = globalRadiusSquared(passes, static_cast<double>(_alpha), later.late);
+    return later;
 }
 
 /// Returns the sum of the radii of a pixel that compares over so many passes from the first one on,
@@ -332,18 +334,17 @@ double TileLookups::sumOfRadii(int passes, bool isSmooth) const
 
 /// Returns the sum of the radii of the later passes in which the pixel, which still compares, looks
 /// up discs, over that of all later passes.
-double TileLookups::discsUntil(std::size_t pixel, int passes) const
+double TileLookups::discsUntil(std::size_t pixel, int passes, const LaterDiscs& later) const
 {
-    const auto alpha = static_cast<double>(_alpha);
-    const bool isSmooth = planes[pixel].isSmooth();
-    const int late = isSmooth && shrinksLate(passes) ? kLatePasses : 0;
-    const double disc =
-        static_cast<double>(planes[pixel].discPixels) * globalRadiusSquared(passes, alpha, late);
+    const double disc = static_cast<double>(planes[pixel].discPixels) * later.shrink2;
     const auto small = static_cast<double>(smallDisc(passes));
     if (!(disc > 0.0 && disc < small)) return 1.0;
+    const bool isSmooth = planes[pixel].isSmooth();
+    const auto alpha = static_cast<double>(_alpha);
     const double share = alpha < 1.0 ? std::pow(disc / small, 1.0 / (1.0 - alpha)) : 0.0;
     const int first = kChoosingPasses * (1 + kRepayingPasses);
-    const int last = std::max(first, static_cast<int>(share * (passes + late)) - late);
+    const int last =
+        std::max(first, static_cast<int>(share * (passes + later.late)) - later.late);
     return sumOfRadii(std::min(last, passes), isSmooth) / sumOfRadii(passes, isSmooth);
 }
 

@@ -75,9 +75,18 @@ public:
     double discShare(std::size_t pixel, int passes) const;
 
 private:
-    double laterShare(int passes, bool isSmooth) const;
+    /// Those of the passes after the ones that may choose, of pixels that still compare.
+    struct LaterDiscs
+    {
+        /// How many passes, as a share of all, have together the bias of the later ones, if each
+        /// has the mean of those that may choose.
+        double share = 0.0;
+        double shrink2 = 1.0; ///< square of the next pass's radius, in first radii
+        int late = 0;         ///< passes that the discs shrink late by
+    };
+    LaterDiscs laterDiscs(int passes, bool isSmooth) const;
     double sumOfRadii(int passes, bool isSmooth) const;
-    double discsUntil(std::size_t pixel, int passes) const;
+    double discsUntil(std::size_t pixel, int passes, const LaterDiscs& later) const;
     int countedOf(std::size_t pixel, int half) const;
     void forgetDiscs(int pass, const GatheredPhotons& gathered, RgbaLanes* rgba);
     void addBlur(int pass, const GatheredPhotons& gathered);
