@@ -128,7 +128,6 @@ private:
     // PhotonMapLanes.cpp.
     struct BucketLine;
     int rangesOf(const PhotonQuery& query, Range* ranges) const;
-    int rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const;
     int rangesIn(Vec3d low, Vec3d high, Range* ranges) const;
     int rangesOfLines(BucketLine* lines, int count, Range* ranges) const;
     template <class Together, class Alone>

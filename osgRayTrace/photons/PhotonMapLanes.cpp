@@ -91,6 +91,30 @@ void boundDiscs(const PhotonQueryLanes& q, LaneMask group, Bounds& bounds)
     }
 }
 
+/// The box of a group's discs: photons outside of it are in none of them.
+struct Box
+{
+    Vec3d exactLow, exactHigh;
+    PlainVec3 low, high; ///< no smaller
+};
+
+Box boxOf(const PhotonQueryLanes& queries, LaneMask group)
+{
+    Bounds bounds;
+    boundDiscs(queries, group, bounds);
+    // Reaches and distances are rounded, hence a share of the reach more.
+    constexpr double kMore = 1.0 + 0x1p-16;
+    const Vec3d reach =
+        -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
+    Box box;
+    box.exactLow = Vec3d(least(bounds.lowX), least(bounds.lowY), least(bounds.lowZ)) - reach;
+    box.exactHigh = -Vec3d(least(bounds.highX), least(bounds.highY), least(bounds.highZ)) + reach;
+    constexpr double kRounding = 0x1p-22; // of a float and its neighbour
+    box.low = plainOf(Vec3(box.exactLow - glm::abs(box.exactLow) * kRounding));
+    box.high = plainOf(Vec3(box.exactHigh + glm::abs(box.exactHigh) * kRounding));
+    return box;
+}
+
 Discs discsOf(const PhotonQueryLanes& q, LaneMask group)
 {
     Discs discs;
@@ -122,41 +146,66 @@ bool isFlat(const PhotonQueryLanes& q, LaneMask group)
     return bent == 0;
 }
 
+/// Returns those of sixteen photons that are in a box.
+OSGRAYTRACE_INLINE LaneMask blockInBox(const PhotonColumns& columns, uint32_t block, uint32_t end,
+                                       const Box& box)
+{
+    const PhotonColumns p = columns.from(block);
+    const int left = static_cast<int>(end - block);
+    const PlainVec3 low = box.low, high = box.high;
+    LaneMask inside = 0;
+    OSGRAYTRACE_SIMD_OR(inside)
+    for (int i = 0; i < kLanes; ++i)
+        inside |=
+            bitOfLane(maskOf(p.x[i] >= low.x) & maskOf(p.x[i] <= high.x) & maskOf(p.y[i] >= low.y) &
+                          maskOf(p.y[i] <= high.y) & maskOf(p.z[i] >= low.z) &
+                          maskOf(p.z[i] <= high.z) & maskOf(i < left),
+                      i);
+    return inside;
+}
+
+/// Adds photon k to the sums of the discs that it is in.
 template <bool kFlat>
-OSGRAYTRACE_INLINE void addPhotons(const PhotonColumns& columns, uint32_t begin, uint32_t end,
-                                   const PhotonQueryLanes& q, const Discs& discs,
-                                   PhotonSumLanes& sums)
+OSGRAYTRACE_INLINE void addPhoton(const PhotonColumns& columns, uint32_t k,
+                                  const PhotonQueryLanes& q, const Discs& discs, PhotonSumLanes& s)
 {
     const auto mostEdges = static_cast<int32_t>(q.mostEdges);
-    PhotonSumLanes s = sums;
-    for (uint32_t k = begin; k < end; ++k)
+    const PhotonColumns p = columns.from(k);
+    const float r = p.r[0], g = p.g[0], b = p.b[0];
+    OSGRAYTRACE_SIMD
+    for (int i = 0; i < kLanes; ++i)
     {
-        const PhotonColumns p = columns.from(k);
-        const float r = p.r[0], g = p.g[0], b = p.b[0];
-        OSGRAYTRACE_SIMD
-        for (int i = 0; i < kLanes; ++i)
-        {
-            const uint32_t in = insideDisc(p, 0, discOf(q, discs, mostEdges, i)).in;
-            const float weight =
-                kFlat ? select(in, 1.0f, 0.0f)
-                      : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
-            s.power.x[i] += weight * r;
-            s.power.y[i] += weight * g;
-            s.power.z[i] += weight * b;
-            s.count[i] += in & 1u;
-        }
+        const uint32_t in = insideDisc(p, 0, discOf(q, discs, mostEdges, i)).in;
+        const float weight =
+            kFlat ? select(in, 1.0f, 0.0f)
+                  : shadingWeight(p, 0, in, plainOf(q.normal, i), plainOf(q.shadingNormal, i));
+        s.power.x[i] += weight * r;
+        s.power.y[i] += weight * g;
+        s.power.z[i] += weight * b;
+        s.count[i] += in & 1u;
     }
+}
+
+template <bool kFlat>
+OSGRAYTRACE_INLINE void addPhotons(const PhotonColumns& columns, uint32_t begin, uint32_t end,
+                                   const Box& box, const PhotonQueryLanes& q, const Discs& discs,
+                                   PhotonSumLanes& sums)
+{
+    PhotonSumLanes s = sums;
+    for (uint32_t block = begin; block < end; block += kLanes)
+        for (LaneMask left = blockInBox(columns, block, end, box); left; left &= left - 1)
+            addPhoton<kFlat>(columns, block + static_cast<uint32_t>(firstLane(left)), q, discs, s);
     sums = s;
 }
 
 OSGRAYTRACE_KERNEL
-void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const PhotonQueryLanes& q,
-              const Discs& discs, bool flat, PhotonSumLanes& sums)
+void addRange(const PhotonColumns& columns, uint32_t begin, uint32_t end, const Box& box,
+              const PhotonQueryLanes& q, const Discs& discs, bool flat, PhotonSumLanes& sums)
 {
     if (flat)
-        addPhotons<true>(columns, begin, end, q, discs, sums);
+        addPhotons<true>(columns, begin, end, box, q, discs, sums);
     else
-        addPhotons<false>(columns, begin, end, q, discs, sums);
+        addPhotons<false>(columns, begin, end, box, q, discs, sums);
 }
 
 /// Returns the lanes whose discs photon k is in.
@@ -173,6 +222,15 @@ LaneMask lanesAround(const PhotonColumns& columns, uint32_t k, const PhotonQuery
         around |= bitOfLane(insideDisc(p, 0, discOf(q, discs, mostEdges, i)).in, i);
     }
     return around;
+}
+
+/// Sets one mask for sixteen photons each, of those that are in a box.
+OSGRAYTRACE_KERNEL
+void photonsInBox(const PhotonColumns& columns, uint32_t begin, uint32_t end, const Box& box,
+                  LaneMask* masks)
+{
+    for (uint32_t block = begin; block < end; block += kLanes)
+        *masks++ = blockInBox(columns, block, end, box);
 }
 
 OSGRAYTRACE_INLINE uint32_t isInWindow(const PhotonColumns& p, int i, const ImageWindow& window)
@@ -207,6 +265,20 @@ void photonsInWindow(const PhotonColumns& columns, uint32_t begin, uint32_t end,
     }
 }
 
+/// Appends those of the photons from begin on that are in discs. masks has one mask for sixteen
+/// photons each, of those that may be.
+void findAmong(const PhotonColumns& columns, uint32_t begin, uint32_t end, const LaneMask* masks,
+               const PhotonQueryLanes& q, const Discs& discs, std::vector<FoundPhoton>& found)
+{
+    for (uint32_t block = begin; block < end; block += kLanes)
+        for (const int i : lanesIn(*masks++))
+        {
+            const uint32_t k = block + static_cast<uint32_t>(i);
+            if (const LaneMask lanes = lanesAround(columns, k, q, discs))
+                found.push_back({k, lanes});
+        }
+}
+
 } // namespace
 
 PhotonQuery laneOf(const PhotonQueryLanes& queries, int i)
@@ -232,8 +304,8 @@ static bool areFew(const DenseCellTrees::Range* ranges, int count)
     return true;
 }
 
-/// Calls together(lanes, ranges, count) for discs that read the same photons, alone(lane) for the
-/// others.
+/// Calls together(lanes, box, ranges, count) for discs that read the same photons, alone(lane) for
+/// the others.
 template <class Together, class Alone>
 void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& together,
                              const Alone& alone) const
@@ -245,30 +317,17 @@ void PhotonMap::forEachGroup(const PhotonQueryLanes& queries, const Together& to
         group = (lanesNear(queries, first) & left) | (1u << first);
         if (countLanes(group) >= kLeastGroup)
         {
-            const int count = rangesOf(queries, group, ranges);
+            const Box box = boxOf(queries, group);
+            const int count = rangesIn(box.exactLow, box.exactHigh, ranges);
             if (areFew(ranges, count))
             {
-                together(group, ranges, count);
+                together(group, box, ranges, count);
                 continue;
             }
         }
         for (const int i : lanesIn(group))
             alone(i);
     }
-}
-
-/// Finds the ranges of photons that can be in the discs of a group.
-int PhotonMap::rangesOf(const PhotonQueryLanes& queries, LaneMask group, Range* ranges) const
-{
-    Bounds bounds;
-    boundDiscs(queries, group, bounds);
-    // Reaches and distances are rounded, hence a share of the reach more.
-    constexpr double kMore = 1.0 + 0x1p-16;
-    const Vec3d reach =
-        -kMore * Vec3d(least(bounds.reachX), least(bounds.reachY), least(bounds.reachZ));
-    const Vec3d low(least(bounds.lowX), least(bounds.lowY), least(bounds.lowZ));
-    const Vec3d high(-least(bounds.highX), -least(bounds.highY), -least(bounds.highZ));
-    return rangesIn(low - reach, high + reach, ranges);
 }
 
 void PhotonMap::gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) const
@@ -278,12 +337,12 @@ void PhotonMap::gather(const PhotonQueryLanes& queries, PhotonSumLanes& sums) co
     const PhotonColumns all = columns();
     forEachGroup(
         queries,
-        [&](LaneMask group, const Range* ranges, int count)
+        [&](LaneMask group, const Box& box, const Range* ranges, int count)
         {
             const Discs discs = discsOf(queries, group);
             const bool flat = isFlat(queries, group);
             for (int i = 0; i < count; ++i)
-                addRange(all, ranges[i].begin, ranges[i].end, queries, discs, flat, sums);
+                addRange(all, ranges[i].begin, ranges[i].end, box, queries, discs, flat, sums);
         },
         [&](int lane)
         {
@@ -299,13 +358,15 @@ void PhotonMap::find(const PhotonQueryLanes& queries, std::vector<FoundPhoton>& 
     const PhotonColumns all = columns();
     forEachGroup(
         queries,
-        [&](LaneMask group, const Range* ranges, int count)
+        [&](LaneMask group, const Box& box, const Range* ranges, int count)
         {
             const Discs discs = discsOf(queries, group);
+            LaneMask masks[kMostTogether / kLanes + 1];
             for (int i = 0; i < count; ++i)
-                for (uint32_t k = ranges[i].begin; k < ranges[i].end; ++k)
-                    if (const LaneMask lanes = lanesAround(all, k, queries, discs))
-                        found.push_back({k, lanes});
+            {
+                photonsInBox(all, ranges[i].begin, ranges[i].end, box, masks);
+                findAmong(all, ranges[i].begin, ranges[i].end, masks, queries, discs, found);
+            }
         },
         [&](int lane) { findLane(queries, lane, found); });
 }
@@ -315,7 +376,8 @@ void PhotonMap::find(const PhotonQueryLanes& queries, const ImageWindow& window,
 {
     if (_count == 0) return;
     Range ranges[kMaxRanges];
-    const int count = rangesOf(queries, queries.lanes, ranges);
+    const Box box = boxOf(queries, queries.lanes);
+    const int count = rangesIn(box.exactLow, box.exactHigh, ranges);
     if (!areFew(ranges, count)) return find(queries, found);
     const PhotonColumns all = columns();
     const Discs discs = discsOf(queries, queries.lanes);
@@ -324,13 +386,7 @@ void PhotonMap::find(const PhotonQueryLanes& queries, const ImageWindow& window,
     {
         const Range range = ranges[r];
         photonsInWindow(all, range.begin, range.end, window, masks);
-        for (uint32_t block = range.begin; block < range.end; block += kLanes)
-            for (const int i : lanesIn(masks[(block - range.begin) / kLanes]))
-            {
-                const uint32_t k = block + static_cast<uint32_t>(i);
-                if (const LaneMask lanes = lanesAround(all, k, queries, discs))
-                    found.push_back({k, lanes});
-            }
+        findAmong(all, range.begin, range.end, masks, queries, discs, found);
     }
 }
 

@@ -343,8 +343,7 @@ double TileLookups::discsUntil(std::size_t pixel, int passes, const LaterDiscs& 
     const auto alpha = static_cast<double>(_alpha);
     const double share = alpha < 1.0 ? std::pow(disc / small, 1.0 / (1.0 - alpha)) : 0.0;
     const int first = kChoosingPasses * (1 + kRepayingPasses);
-    const int last =
-        std::max(first, static_cast<int>(share * (passes + later.late)) - later.late);
+    const int last = std::max(first, static_cast<int>(share * (passes + later.late)) - later.late);
     return sumOfRadii(std::min(last, passes), isSmooth) / sumOfRadii(passes, isSmooth);
 }
 
