@@ -21,7 +21,7 @@ constexpr const char* kCompiler = "another compiler";
 #endif
 
 /// Counts the forms that messages have had, of scenes and of counts, too.
-constexpr int kMessages = 10;
+constexpr int kMessages = 11;
 
 } // namespace
 
